@@ -14,7 +14,8 @@ usage() {
 usage: ./run.sh            build kith, run the paper's study into results/paper, print its table and
                            what was found, and write results/paper/report.html
        ./run.sh --setup    install what is missing and build, no more
-       ./run.sh --lesson   the same, with the engine that `kith lesson` puts into pages; needs Emscripten
+       ./run.sh --lesson   the same with the engine that `kith lesson` puts into pages
+       ./run.sh --python   the same with the module for Python, into build/release/python
        ./run.sh ARGS...    the same, then `kith ARGS...` (./run.sh help: what kith can do)
 
 Installs missing Debian packages first, and says which and how large; that needs
@@ -29,19 +30,35 @@ case ${1:-} in
     ;;
 esac
 
-packages=("${packages_to_build[@]}")
-[[ ${1:-} == --lesson ]] && packages+=("${packages_for_lesson[@]}")
+packages=("${packages_to_build[@]}") module=() targets=(kith kith_manual)  # all that cmake --install installs
+case ${1:-} in
+  --lesson)
+    packages+=("${packages_for_lesson[@]}")
+    module=(-DKITH_LESSON=ON)
+    ;;
+  --python)
+    packages+=("${packages_for_python[@]}")
+    module=(-DKITH_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3)
+    targets+=(kith_python)
+    ;;
+esac
 ensure_packages "${packages[@]}"
 tests=()
 # Without GoogleTest there is nothing to test with; a folder that test.sh has made stays as it is.
 [[ -e build/release/build.ninja ]] || tests=(-DKITH_BUILD_TESTS=OFF)
-[[ ${1:-} == --lesson ]] && tests+=(-DKITH_LESSON=ON)
-configure_and_build release "${tests[@]}" -- kith kith_manual  # all that cmake --install installs
+# A folder that has the module keeps it, so that cmake --install finds it up to date.
+if [[ ${1:-} != --python ]] && grep -qs '^KITH_PYTHON:BOOL=ON' build/release/CMakeCache.txt; then
+  targets+=(kith_python)
+fi
+configure_and_build release "${tests[@]}" "${module[@]}" -- "${targets[@]}"
 kith=$root/build/release/bin/kith
 
 case ${1:-} in
   --setup | --lesson)
     say "Ready: build/release/bin/kith"
+    ;;
+  --python)
+    say "Ready: PYTHONPATH=$root/build/release/python python3"
     ;;
   '')
     say "Running the paper's study: kith study studies/paper.toml -o results/paper"

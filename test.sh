@@ -4,7 +4,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
-night=(release ratios headers asan tsan fuzz slow lesson tidy)
+night=(release ratios headers asan tsan python lesson fuzz slow tidy)
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
@@ -18,6 +18,7 @@ usage: ./test.sh             what has to pass before anything is merged:
                                headers  every public header compiled alone
                                asan     all layers under ASan and UBSan
                                tsan     those that use threads, under TSan
+                               python   the module for Python: its tests, notebooks
                                fuzz     every fuzz target, MINUTES (12) in all
                                slow     the slow tests
                                lesson   lessons in a file: the engine, and people in a browser
@@ -49,7 +50,9 @@ done
 ((${#chosen[@]})) || chosen=("${night[@]}")
 
 packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
-if [[ $mode == nightly ]]; then packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}"); fi
+if [[ $mode == nightly ]]; then
+  packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}" "${packages_for_python[@]}")
+fi
 ensure_packages "${packages[@]}"
 
 jobs=$(nproc)
@@ -112,6 +115,11 @@ nightly() {  # PART
     asan) asan "${layers[@]}" ;;
     tsan)
       part "TSan: build" configure_and_build tsan -- $(tests_of "${threaded[@]}") && part "TSan: tests" run_tests tsan
+      ;;
+    python)
+      part "Python: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_PYTHON=ON \
+        -DPython3_EXECUTABLE=/usr/bin/python3 -- kith kith_python && part "Python: tests" run_tests release -L python
+      configure_and_build release -DKITH_PYTHON=OFF -- kith  # ./test.sh by day has no module
       ;;
     # The corpora are replayed by the fuzz targets themselves.
     fuzz) part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz ;;

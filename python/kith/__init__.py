@@ -1,0 +1,39 @@
+"""kith: teach a robot's policy to a group of people.
+
+    import kith
+
+    robot = kith.Domain("item-delivery")             # or kith.Domain.from_arrays(...), from_gymnasium(...)
+    kith.teach(robot, group="NNP", strategy="joint") # one simulated team, step by step
+    run = kith.study("quick")                        # many; run.tables["teams"] is a pandas frame
+    run.analyze(), run.report(), run.verify()
+
+Sessions with whoever you like at the other end: kith.Session. Strategies and simulated people of your own: kith.Strategy,
+kith.Learner. Beliefs alone: kith.Cone, kith.ParticleBelief, kith.region. What goes wrong is kith.Error; wrong arguments
+raise ValueError, TypeError and IndexError.
+"""
+
+from ._core import Cone, LearnerStart, ParticleBelief, RandomStream, Unit, View
+from ._domain import Domain
+from ._env import TeachingEnv
+from ._errors import Diagnostic, Error, Warning
+from ._kinds import Learner, Strategy, strategies
+from ._records import (Component, Counts, Demonstration, Feedback, HalfSpace, Lesson, Path, Period, Start, Test, Verdict,
+                       World)
+from ._session import People, Session
+from ._study import Analysis, Finding, Report, Run, Tables, audit, fit, power, study
+from ._teach import Record, Transcript, replay, teach
+from ._core import program as _program
+
+__version__ = _program().split()[0]
+
+__all__ = [
+    "Analysis", "Component", "Cone", "Counts", "Demonstration", "Diagnostic", "Domain", "Error", "Feedback", "Finding",
+    "HalfSpace", "Learner", "LearnerStart", "Lesson", "ParticleBelief", "Path", "People", "Period", "RandomStream",
+    "Record", "Report", "Run", "Session", "Start", "Strategy", "Tables", "TeachingEnv", "Test", "Transcript", "Unit",
+    "Verdict", "View", "Warning", "World", "audit", "fit", "power", "region", "replay", "strategies", "study", "teach",
+]
+
+
+def region(domain: Domain) -> Cone:
+    """All weights under which the robot's policy is optimal, within what everybody knows beforehand."""
+    return domain.region

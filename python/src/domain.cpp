@@ -1,0 +1,309 @@
+#include "domain.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "arrays.hpp"
+#include "errors.hpp"
+#include "kith/bec/memory_needs.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/present/board_svg.hpp"
+#include "kith/present/inspect_json.hpp"
+#include "kith/present/region_svg.hpp"
+#include "waiting.hpp"
+
+namespace kith::python {
+namespace {
+
+DomainPointer domain_from(std::string text, const std::string& name, const DomainFiles& files) {
+  auto reading = parse_domain(text, name, {}, files);
+  if (!reading.domain) throw Error{reading.diagnostics};
+  warn(reading.diagnostics);
+  return std::make_shared<LoadedDomain>(*std::move(reading.domain), std::move(text), std::move(reading.files));
+}
+
+DomainPointer load(const std::string& name) {
+  for (const auto& one : built_in_domains()) {
+    if (one.name == name) return domain_from(std::string{one.text}, name, {{}, one.files});
+  }
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(name, failure)) (void)load_domain(name);  // says what is wrong
+  std::ifstream file{name, std::ios::binary};
+  if (!file) throw Error{ErrorKind::kIo, "cannot read " + name};
+  return domain_from({std::istreambuf_iterator<char>{file}, {}}, name, {std::filesystem::path{name}.parent_path(), {}});
+}
+
+DomainPointer from_text(const std::string& text, const std::string& name, const py::dict& files,
+                        const std::string& folder) {
+  DomainFiles named{folder, {}};
+  for (const auto& [file, content] : files)
+    named.known.push_back({file.cast<std::string>(), content.cast<std::string>()});
+  return domain_from(text, name, named);
+}
+
+MdpIndex world_of(const Domain& domain, std::size_t world) {
+  if (world >= domain.num_mdps())
+    throw py::index_error{"there is no world " + std::to_string(world) + ", only 0 to " +
+                          std::to_string(domain.num_mdps() - 1)};
+  return MdpIndex{world};
+}
+
+// Actions of the robot by state, or of what is optimal under other weights; None in no state.
+py::list policy(LoadedDomain& self, std::size_t world) {
+  const auto atlas = self.atlas();
+  const auto m = world_of(self.domain(), world);
+  py::list actions;
+  for (std::size_t s = 0; s < self.domain().mdp(m).num_states(); ++s)
+    actions.append(self.domain().action_names()[atlas->action(atlas->index({m, StateIndex{s}})).value()]);
+  return actions;
+}
+
+py::dict path_to_python(const Domain& domain, MdpIndex m, const Trajectory& path, const IntegerVector& counts) {
+  py::list states, actions;
+  for (const auto state : path.states) states.append(state.value());
+  for (const auto action : path.actions) actions.append(domain.action_names()[action.value()]);
+  py::dict result;
+  result["world"] = m.value();
+  result["states"] = states;
+  result["actions"] = actions;
+  result["counts"] = counts_to_tuple(domain, counts);
+  result["value"] = return_of(domain, counts);
+  result["repeats_from"] = path.repeats_from ? py::object{py::int_(*path.repeats_from)} : py::none();
+  return result;
+}
+
+// What somebody does from a start, and how it ends; None if they have no optimum there.
+py::object path(LoadedDomain& self, const py::object& start, const py::object& weights) {
+  const auto demo = self.state_of(start);
+  const auto atlas = self.atlas();
+  const auto m = atlas->id(demo).mdp;
+  if (weights.is_none()) return path_to_python(self.domain(), m, atlas->trajectory(demo), atlas->feature_counts(demo));
+  const auto direction = direction_of(weights, self.domain().num_features(), "weights");
+  const auto cache = self.borrow();
+  const auto way = cache->behaviours().trajectory(demo, direction);
+  const auto counts = cache->behaviours().answer(demo, cache->behaviours().locate(direction));
+  if (!way || !counts) return py::none();
+  return path_to_python(self.domain(), m, *way, *counts);
+}
+
+py::list components(LoadedDomain& self) {
+  const auto atlas = self.atlas();
+  py::list list;
+  for (const auto& component : atlas->knowledge_components()) {
+    py::list features;
+    for (const auto k : component.features) features.append(self.domain().feature_names()[k]);
+    py::list worlds;
+    for (std::size_t m = 0; m < component.uses_mdp.size(); ++m) {
+      if (component.uses_mdp[m]) worlds.append(m);
+    }
+    py::dict one;
+    one["name"] = component.name;
+    one["features"] = features;
+    one["half_spaces"] = to_list(atlas->constraints().half_spaces(component.constraints));
+    one["area_sr"] = component.area_sr;
+    one["worlds"] = worlds;
+    list.append(one);
+  }
+  return list;
+}
+
+Cone region(LoadedDomain& self) {
+  const auto atlas = self.atlas();
+  auto cone = atlas->prior_cone();
+  if (!cone.clip(atlas->policy_bec_half_spaces()))
+    throw Error{ErrorKind::kInfeasible, "the weights under which the robot's policy is optimal have no interior"};
+  return cone;
+}
+
+Cone prior(const LoadedDomain& self) {
+  Cone cone{self.domain().num_features()};
+  if (!cone.clip(self.domain().prior())) throw Error{ErrorKind::kInfeasible, "the prior has no interior"};
+  return cone;
+}
+
+std::string described(LoadedDomain& self, bool demonstrations) {
+  const auto atlas = self.atlas();
+  return inspection_json(*atlas, {.demos = demonstrations, .mdp = std::nullopt}).dump();
+}
+
+// The board of a state with the robot's path, as an SVG file; empty without a map or a picture.
+std::string board(LoadedDomain& self, const py::object& start, bool with_path) {
+  const auto demo = self.state_of(start);
+  const auto atlas = self.atlas();
+  const auto map = self.domain().drawing();
+  if (!map) return "";
+  const auto id = atlas->id(demo);
+  const BoardSvg drawer{*map};
+  Svg svg = drawer.board(id.mdp, map->state(id.mdp, id.start));
+  if (with_path) svg.add(0, 0, drawer.path(id.mdp, atlas->trajectory(demo), "#1f5fbf"));
+  return svg.file(drawer.width(), drawer.height(), self.domain().state_name(id.mdp, id.start));
+}
+
+std::string region_picture(LoadedDomain& self) {
+  const auto atlas = self.atlas();
+  const auto cone = region(self);
+  std::vector<std::string> captions;
+  for (const auto& facet : cone.facets()) captions.push_back(described(self.domain(), facet));
+  const auto drawn =
+      region_svg({self.domain().feature_names(), atlas->prior_cone(), cone, self.domain().weights().integer, captions});
+  return drawn.svg.file(drawn.width, drawn.height, "what is left of the reward weights");
+}
+
+py::list words(const LoadedDomain& self, const py::object& half_spaces) {
+  py::list list;
+  for (const auto& text : all_in_words(self.domain(), half_spaces_of(half_spaces, self.domain().num_features())))
+    list.append(text);
+  return list;
+}
+
+}  // namespace
+
+std::shared_ptr<const Atlas> LoadedDomain::atlas() {
+  {
+    const py::gil_scoped_release unlocked;
+    const std::lock_guard lock{mutex_};
+    if (atlas_) return atlas_;
+  }
+  return wait_for([self = shared_from_this()] {
+    const std::lock_guard lock{self->mutex_};
+    if (!self->atlas_) {
+      require_planning_memory(self->domain_);
+      self->atlas_ = std::make_shared<const Atlas>(self->domain_);
+    }
+    return self->atlas_;
+  });
+}
+
+LoadedDomain::Loan::Loan(std::shared_ptr<LoadedDomain> domain) : domain_{std::move(domain)} {
+  const py::gil_scoped_release unlocked;
+  const std::lock_guard lock{domain_->mutex_};
+  if (domain_->free_.empty()) {
+    cache_ = std::make_unique<TeachingCache>(domain_->atlas_);
+  } else {
+    cache_ = std::move(domain_->free_.back());
+    domain_->free_.pop_back();
+  }
+}
+
+LoadedDomain::Loan::~Loan() {
+  constexpr std::size_t kMostFree = 8;
+  const std::lock_guard lock{domain_->mutex_};  // short: nobody computes with it but atlas(), which is done
+  if (domain_->free_.size() < kMostFree) domain_->free_.push_back(std::move(cache_));
+}
+
+DemoIndex LoadedDomain::state_of(const py::handle& start) {
+  const auto numbers = integers_of(start, 2, "a start (world, state)");
+  if (numbers[0] < 0 || numbers[1] < 0) throw py::index_error{"a start is (world, state), both counted from 0"};
+  const auto m = world_of(domain_, static_cast<std::size_t>(numbers[0]));
+  const auto s = static_cast<std::size_t>(numbers[1]);
+  if (s >= domain_.mdp(m).num_states())
+    throw py::index_error{"world " + std::to_string(m.value()) + " has no state " + std::to_string(s) +
+                          " in which the robot acts, only 0 to " + std::to_string(domain_.mdp(m).num_states() - 1)};
+  return atlas()->index({m, StateIndex{s}});
+}
+
+DemoIndex LoadedDomain::demo_of(const py::handle& start) {
+  const auto demo = state_of(start);
+  if (!atlas()->is_candidate(demo)) throw py::value_error{"this domain lets nothing start in that state"};
+  return demo;
+}
+
+py::tuple LoadedDomain::start_of(const Atlas& atlas, DemoIndex demo) {
+  const auto id = atlas.id(demo);
+  return py::make_tuple(id.mdp.value(), id.start.value());
+}
+
+void bind_domain(py::module_& module) {
+  py::class_<LoadedDomain, DomainPointer>(module, "Domain", "A robot in one or several worlds; see kith.Domain.")
+      .def(py::init(&load), py::arg("name_or_path"))
+      .def_static("from_text", &from_text, py::arg("text"), py::arg("name"), py::arg("files") = py::dict{},
+                  py::arg("folder") = "")
+      .def_static("built_in",
+                  [] {
+                    py::list names;
+                    for (const auto& one : built_in_domains()) names.append(one.name);
+                    return names;
+                  })
+      .def_property_readonly("id", [](const LoadedDomain& self) { return self.domain().id(); })
+      .def_property_readonly("title", [](const LoadedDomain& self) { return self.domain().title(); })
+      .def_property_readonly("text", &LoadedDomain::text)
+      .def_property_readonly("files",
+                             [](const LoadedDomain& self) {
+                               py::dict files;
+                               for (const auto& file : self.files()) files[py::str(file.name)] = file.text;
+                               return files;
+                             })
+      .def_property_readonly("feature_names",
+                             [](const LoadedDomain& self) {
+                               return py::tuple(py::cast(std::vector<std::string>{self.domain().feature_names()},
+                                                         py::return_value_policy::move));
+                             })
+      .def_property_readonly("action_names",
+                             [](const LoadedDomain& self) {
+                               return py::tuple(py::cast(std::vector<std::string>{self.domain().action_names()},
+                                                         py::return_value_policy::move));
+                             })
+      .def_property_readonly(
+          "weights",
+          [](const LoadedDomain& self) {
+            return py::tuple(py::cast(std::vector<double>{self.domain().weights().raw}, py::return_value_policy::move));
+          })
+      .def_property_readonly("num_worlds", [](const LoadedDomain& self) { return self.domain().num_mdps(); })
+      .def_property_readonly("num_starts", [](const LoadedDomain& self) { return self.domain().num_starts(); })
+      .def_property_readonly("prior", &prior)
+      .def_property_readonly("region", &region)
+      .def_property_readonly("components", &components)
+      .def(
+          "world_name",
+          [](const LoadedDomain& self, std::size_t world) {
+            return self.domain().describe_variant(world_of(self.domain(), world));
+          },
+          py::arg("world"))
+      .def(
+          "state_names",
+          [](const LoadedDomain& self, std::size_t world) {
+            const auto m = world_of(self.domain(), world);
+            py::list names;
+            const auto& mdp = self.domain().mdp(m);
+            for (std::size_t s = 0; s < mdp.num_states() + mdp.num_terminals(); ++s)
+              names.append(self.domain().state_name(m, StateIndex{s}));
+            return names;
+          },
+          py::arg("world"))
+      .def(
+          "starts",
+          [](const LoadedDomain& self, std::size_t world) {
+            py::list states;
+            for (const auto s : self.domain().starts(world_of(self.domain(), world))) states.append(s.value());
+            return states;
+          },
+          py::arg("world"))
+      .def(
+          "initial",
+          [](const LoadedDomain& self, std::size_t world) {
+            return self.domain().initial_state(world_of(self.domain(), world)).value();
+          },
+          py::arg("world"))
+      .def(
+          "map",
+          [](const LoadedDomain& self, std::size_t world) {
+            const auto m = world_of(self.domain(), world);
+            const auto map = self.domain().drawing();
+            py::list rows;
+            if (!map) return rows;
+            for (const auto& row : map->draw(m, std::nullopt)) rows.append(row);
+            return rows;
+          },
+          py::arg("world"))
+      .def("policy", &policy, py::arg("world"))
+      .def("path", &path, py::arg("start"), py::arg("weights") = py::none())
+      .def("board", &board, py::arg("start"), py::arg("path") = false)
+      .def("region_picture", &region_picture)
+      .def("words", &words, py::arg("half_spaces"))
+      .def("described", &described, py::arg("demonstrations") = false);
+}
+
+}  // namespace kith::python

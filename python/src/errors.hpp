@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "binding.hpp"
+#include "kith/core/error.hpp"
+
+namespace kith::python {
+
+/// A Python object that may be copied and dropped by threads that do not hold the interpreter's lock.
+class SharedObject {
+ public:
+  SharedObject() = default;
+  /// @pre the lock is held.
+  explicit SharedObject(py::object object);
+  /// @pre the lock is held.
+  [[nodiscard]] py::object get() const { return object_ ? *object_ : py::object{}; }
+  [[nodiscard]] explicit operator bool() const noexcept { return object_ != nullptr; }
+
+ private:
+  std::shared_ptr<py::object> object_;
+};
+
+/// What code written in Python raised while the libraries called it. Its text is the traceback; where nothing in
+/// between makes another error of it, the exception itself goes on.
+class OwnCodeFailed : public Error {
+ public:
+  /// @pre the lock is held. @param what  whose code, such as "the strategy 'mine'".
+  OwnCodeFailed(const std::string& what, const py::error_already_set& raised);
+  /// @pre the lock is held.
+  void restore() const;
+
+ private:
+  OwnCodeFailed(const std::string& text, SharedObject object)
+      : Error{ErrorKind::kPartial, text}, raised_{std::move(object)} {}
+  SharedObject raised_;
+};
+
+/// Warnings as Python's: category kith.Warning. @pre the lock is held.
+void warn(const std::vector<Diagnostic>& diagnostics);
+void warn(const std::string& text);
+
+}  // namespace kith::python

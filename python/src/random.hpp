@@ -1,0 +1,13 @@
+#pragma once
+
+#include "binding.hpp"
+#include "kith/random/stream.hpp"
+
+namespace kith::python {
+
+/// A stream for code written in Python: deriving another leaves it as it is.
+struct Stream {
+  RandomStream stream{0};
+};
+
+}  // namespace kith::python

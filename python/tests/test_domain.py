@@ -1,0 +1,155 @@
+"""Domains, from everywhere."""
+
+import pathlib
+import tempfile
+import unittest
+
+import kith
+import numpy as np
+from support import LAKE_ACTIONS, SOURCE, lake, lake_domain
+
+
+def corridor(chance=1.0):
+    """Four cells in a row with mud on one; the right one ends an episode."""
+    transitions = np.zeros((4, 2, 4))
+    features = np.zeros((4, 2, 4, 2))
+    for s in range(3):
+        for a, t in enumerate([max(s - 1, 0), s + 1]):
+            transitions[s, a, t] += chance
+            transitions[s, a, s] += 1 - chance
+            features[s, a, :, 1] = 1
+            features[s, a, 2, 0] = 1
+    transitions[3, :, 3] = 1
+    return transitions, features
+
+
+class Built(unittest.TestCase):
+    def test_built_in_domains_are_what_the_program_says(self):
+        robot = kith.Domain("item-delivery")
+        self.assertEqual(robot.feature_names, ("rubble", "recharge", "step"))
+        self.assertEqual(len(robot.worlds), 64)
+        self.assertEqual(robot.weights, (-3.0, 3.5, -1.0))
+        self.assertIn("item-delivery", kith.Domain.built_in())
+        self.assertEqual(len(robot.policy), 64)
+        self.assertEqual(len(robot.policy[0]), len([n for n in robot.worlds[0].state_names]) - 1)
+        self.assertAlmostEqual(robot.region.solid_angle, robot.components[-1].area_sr, places=9)
+        self.assertEqual(robot.described()["id"], "item-delivery")
+
+    def test_its_region_holds_its_weights_and_no_others(self):
+        robot = kith.Domain("item-delivery")
+        self.assertTrue(robot.region.contains(robot.weights))
+        self.assertFalse(robot.region.contains([-w for w in robot.weights]))
+        for start in robot.starts[::97]:
+            inside = robot.path(start, robot.region.interior)
+            self.assertEqual(inside.actions, robot.path(start).actions)
+
+    def test_a_file_and_its_text_are_the_same(self):
+        file = SOURCE / "domains" / "item_delivery.toml"
+        a, b = kith.Domain(file), kith.Domain(file.read_text())
+        self.assertEqual(a.region, b.region)
+        self.assertEqual(a.text, b.text)
+
+    def test_saving_and_reading_gives_the_same(self):
+        with tempfile.TemporaryDirectory() as folder:
+            robot = kith.Domain("icy-crossing")
+            again = kith.Domain(robot.save(folder))
+            self.assertEqual(robot.region, again.region)
+            self.assertEqual(robot.policy, again.policy)
+
+    def test_it_shows_itself(self):
+        page = kith.Domain("item-delivery")._repr_html_()
+        self.assertIn("<svg", page)
+        self.assertIn("crossing rubble", page)
+        self.assertNotIn("<script", page)
+
+    def test_what_is_wrong_has_id_place_and_help(self):
+        text = (SOURCE / "domains" / "item_delivery.toml").read_text()
+        with self.assertRaises(kith.Error) as caught:
+            kith.Domain(text.replace("rubble = -3", "rubbel = -3", 1))
+        self.assertRegex(caught.exception.id, r"^E\d{4}$")
+        self.assertRegex(caught.exception.place, r"^domain:\d+:\d+$")
+        self.assertIn("rubble", caught.exception.help)
+        self.assertEqual(caught.exception.kind, "invalid-input")
+        with self.assertRaises(kith.Error) as caught:
+            kith.Domain("item-delivrey")
+        self.assertIn("item-delivery", str(caught.exception))
+
+
+class Arrays(unittest.TestCase):
+    def test_a_corridor_is_walked_to_its_end(self):
+        transitions, features = corridor()
+        robot = kith.Domain.from_arrays(transitions, features, [-2, -1], feature_names=["mud", "step"],
+                                        action_names=["back", "on"])
+        self.assertEqual(robot.policy, [["on", "on", "on"]])
+        self.assertEqual(robot.path((0, 0)).counts, (1, 3))
+        self.assertEqual(robot.feature_names, ("mud", "step"))
+
+    def test_strides_types_and_order_do_not_matter(self):
+        transitions, features = corridor()
+        plain = kith.Domain.from_arrays(transitions, features, [-2, -1])
+        for change in (np.asfortranarray, lambda x: x.astype(np.float32), lambda x: x[::-1][::-1],
+                       lambda x: x.tolist()):
+            other = kith.Domain.from_arrays(change(transitions), change(features), (-2, -1))
+            self.assertEqual(plain.text, other.text)
+            self.assertEqual(plain.policy, other.policy)
+        locked = transitions.copy()
+        locked.flags.writeable = False
+        self.assertEqual(kith.Domain.from_arrays(locked, features, [-2, -1]).policy, plain.policy)
+
+    def test_chance_is_planned_with(self):
+        transitions, features = corridor(0.5)
+        robot = kith.Domain.from_arrays(transitions, features, [-2, -1])
+        self.assertEqual(robot.policy[0], ["action2"] * 3)
+        self.assertAlmostEqual(robot.path((0, 0)).counts[1], 6.0, places=5)
+
+    def test_wrong_arrays_are_refused(self):
+        transitions, features = corridor()
+        half = transitions.copy()
+        half[0, 1] *= 0.5
+        hole = features.copy()
+        hole[0, 0, 0, 0] = np.nan
+        for wrong in ((half, features, [-2, -1]), (transitions, hole, [-2, -1]), (transitions, features, [-2]),
+                      (transitions[:, :, :3], features, [-2, -1]), (transitions, features[:, :1], [-2, -1]),
+                      (transitions, features, [np.inf, -1]), ("abc", features, [-2, -1]),
+                      (transitions - 0.5, features, [-2, -1]), (transitions, features, {"nothing": 1})):
+            with self.assertRaises(ValueError):
+                kith.Domain.from_arrays(*wrong)
+        with self.assertRaises(kith.Error):  # a reward for standing still
+            kith.Domain.from_arrays(transitions, features, [2, 1])
+
+
+class Gymnasium(unittest.TestCase):
+    def test_the_lake_is_crossed(self):
+        robot = lake_domain(kith)
+        path = robot.path((0, 0))
+        self.assertEqual(path.counts, (0, 6, 1))
+        self.assertEqual(set(robot.action_names), set(LAKE_ACTIONS))
+
+    def test_slipping_is_known(self):
+        robot = lake_domain(kith, slip=True)
+        self.assertGreater(robot.path((0, 0)).counts[0], 0)  # holes, in expectation
+
+    def test_rewards_become_features(self):
+        table, _ = lake()
+        for s in table:
+            for a in table[s]:
+                table[s][a] = [(p, t, r - 1 if s != t or not end else 0, end) for p, t, r, end in table[s][a]]
+
+        class Env:
+            P = table
+        robot = kith.Domain.from_gymnasium(Env(), discount=0.95)
+        self.assertGreaterEqual(len(robot.feature_names), 1)
+
+    def test_an_environment_without_a_table_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "P"):
+            kith.Domain.from_gymnasium(object())
+
+    def test_it_can_be_taught(self):
+        robot = lake_domain(kith)
+        told = kith.teach(robot, group="NP", strategy="joint", seed=3)
+        before = kith.ParticleBelief(robot.prior, 2000).mass_in(robot.region)
+        self.assertGreater(told.knowledge, 2 * before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+"""The module as a whole: types, import, installation, and calls that make no sense."""
+
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import kith
+import numpy as np
+from support import SOURCE
+
+
+class Import(unittest.TestCase):
+    def test_nothing_large_is_imported_before_it_is_needed(self):
+        script = ("import sys, kith\nkith.Domain('item-delivery').region\n"
+                  "print([m for m in ('numpy', 'pandas', 'matplotlib', 'IPython') if m in sys.modules])")
+        printed = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        self.assertEqual(printed.stdout.strip(), "[]")
+
+    def test_numpy_is_not_linked(self):
+        file = pathlib.Path(kith._core.__file__)
+        self.assertNotIn(b"numpy.core.multiarray", file.read_bytes())
+
+    def test_every_public_thing_is_explained(self):
+        for name in kith.__all__:
+            thing = getattr(kith, name)
+            if name in ("Start", "HalfSpace", "Counts"):
+                continue
+            self.assertTrue(thing.__doc__, name)
+            if isinstance(thing, type) and thing.__module__.startswith("kith"):
+                for member, value in vars(thing).items():
+                    if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                        self.assertTrue(value.__doc__, f"{name}.{member}")
+
+
+class Types(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("stubtest"), "mypy is not installed")
+    def test_stubs_are_what_the_module_is(self):
+        place = pathlib.Path(kith.__file__).parents[1]
+        with tempfile.TemporaryDirectory() as folder:
+            found = subprocess.run(["stubtest", "kith._core", "--ignore-missing-stub"], cwd=folder, capture_output=True,
+                                   text=True, env={**os.environ, "MYPYPATH": str(place), "PYTHONPATH": str(place)})
+        self.assertEqual(found.returncode, 0, found.stdout[-4000:] + found.stderr[-2000:])
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+    def test_the_package_is_strict(self):
+        place = pathlib.Path(kith.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            found = subprocess.run(["mypy", "--strict", "--ignore-missing-imports", "--cache-dir", folder, str(place)],
+                                   cwd=folder, capture_output=True, text=True)
+        self.assertEqual(found.returncode, 0, found.stdout[-4000:])
+
+
+class Installation(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("pip3") and shutil.which("cmake"), "pip or cmake is not installed")
+    def test_pip_builds_without_a_network(self):
+        build = pathlib.Path(kith.__file__).parents[2]
+        if not (build / "CMakeCache.txt").exists():
+            self.skipTest("the module is not in a build tree")
+        with tempfile.TemporaryDirectory() as folder:
+            tree = pathlib.Path(folder) / "python"
+            shutil.copytree(SOURCE / "python", tree, ignore=shutil.ignore_patterns("tests", "src", "build", "*.egg-info"))
+            (pathlib.Path(folder) / "CMakeLists.txt").write_bytes((SOURCE / "CMakeLists.txt").read_bytes())
+            subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-index", "--no-deps",
+                            "--target", f"{folder}/there", str(tree)], check=True, env={**os.environ, "KITH_BUILD_DIR": str(build)})
+            printed = subprocess.run([sys.executable, "-c", "import kith; print(kith.__file__, len(kith.Domain('item-delivery').worlds))"],
+                                     cwd=folder, env={"PYTHONPATH": f"{folder}/there", "PATH": os.environ["PATH"]},
+                                     capture_output=True, text=True, check=True)
+        self.assertIn("there", printed.stdout)
+        self.assertIn("64", printed.stdout)
+
+
+class Nonsense(unittest.TestCase):
+    """Calls with arguments of wrong types, shapes and order: exceptions, or results, and never the end of Python."""
+
+    CALLS = 10_000
+
+    def setUp(self):
+        self.draw = random.Random(20_240_424)
+        robot = kith.Domain("item-delivery")
+        self.robot = robot
+        self.objects = [robot, robot._native, robot.region, kith.ParticleBelief(robot.prior, 50), kith.RandomStream(1),
+                        kith.Session(robot, "NP", teacher={"particles": 50}), kith.People(robot, "NP", learner={"N": {"particles": 50}}),
+                        kith.TeachingEnv(robot, "N", teacher={"particles": 50}), robot.worlds[0], robot.components[0]]
+        self.objects.append(self.objects[5]._native)
+        self.objects.append(self.objects[6]._native)
+
+    def value(self, depth=0):
+        draw = self.draw
+        plain = [None, True, 0, 1, 2, -1, 10**3, 2**40, 2**70, -0.5, 1e300, float("nan"), float("inf"), "", "joint", "NP",
+                 "\0", "x" * 1000, b"\xff", (), [], {}, (0, 0), (63, 5), (1, -1), (0, 1, -2), [(0, 0, -1)], [(1, 0, 0), (0, 1, 0)],
+                 [1.5, 2, 3], object(), int, lambda *args: args, {"particles": 3}, range(3), iter([]), np.zeros(3), np.eye(3),
+                 np.eye(3, dtype=np.int8)[::-1, ::2], np.zeros((0, 3)), np.array([np.nan, 1, 2]), np.array("text"),
+                 np.array([object()]), np.zeros((2, 2, 2), complex), np.broadcast_to(1.0, (3, 3)), memoryview(b"abc"), bytearray(24)]
+        if draw.random() < 0.15:
+            return draw.choice(self.objects)
+        if depth < 2 and draw.random() < 0.2:
+            return [self.value(depth + 1) for _ in range(draw.randrange(4))]
+        return draw.choice(plain)
+
+    def test_ten_thousand_calls(self):
+        made, refused = 0, 0
+        makers = [kith.Cone, kith.ParticleBelief, kith.RandomStream, kith.Session, kith.People, kith.Domain.from_arrays,
+                  kith.Domain.from_gymnasium, kith.Domain, kith._core.Array, kith.View, kith.Unit, kith._core.Table, kith.region]
+        avoid = {"save", "sample", "cover", "from_text"}
+        for _ in range(self.CALLS):
+            if self.draw.random() < 0.3:
+                call = self.draw.choice(makers)
+            else:
+                thing = self.draw.choice(self.objects)
+                names = [name for name in dir(type(thing)) if name not in avoid and
+                         (not name.startswith("_") or name in ("__eq__", "__len__", "__copy__", "__deepcopy__", "__init__", "__hash__"))]
+                name = self.draw.choice(names)
+                if name == "__init__" and not type(thing).__module__ == "kith._core":
+                    continue
+                try:
+                    call = getattr(thing, name)
+                except (kith.Error, ValueError, RuntimeError):
+                    refused += 1
+                    continue
+            try:
+                if callable(call):
+                    call(*[self.value() for _ in range(self.draw.randrange(4))])
+                made += 1
+            except (kith.Error, ValueError, TypeError, IndexError, KeyError, AttributeError, OverflowError, RuntimeError,
+                    MemoryError, OSError, AssertionError):
+                refused += 1
+        self.assertGreater(made, self.CALLS / 20)
+        self.assertGreater(refused, self.CALLS / 20)
+        self.assertEqual(len(self.robot.worlds), 64)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,45 @@
+"""The notebooks run, and the last expression of every cell can be shown."""
+
+import ast
+import contextlib
+import io
+import json
+import unittest
+
+from support import SOURCE
+
+
+def run(path):
+    scope = {"__name__": "__main__"}
+    shown = []
+    for cell in json.loads(path.read_text())["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        tree = ast.parse("".join(cell["source"]), str(path))
+        last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(compile(tree, str(path), "exec"), scope)
+            if last is not None:
+                value = eval(compile(ast.Expression(last.value), str(path), "eval"), scope)
+                page = value._repr_html_() if hasattr(value, "_repr_html_") else repr(value)
+                shown.append(page)
+    return shown
+
+
+class Notebooks(unittest.TestCase):
+    def test_all_run_and_show_something(self):
+        paths = sorted((SOURCE / "examples" / "notebooks").glob("*.ipynb"))
+        self.assertTrue(paths)
+        for path in paths:
+            with self.subTest(path.name):
+                shown = run(path)
+                self.assertTrue(shown and all(shown), path.name)
+
+    def test_they_hold_no_outputs(self):
+        for path in (SOURCE / "examples" / "notebooks").glob("*.ipynb"):
+            for cell in json.loads(path.read_text())["cells"]:
+                self.assertFalse(cell.get("outputs"), path.name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+"""Runs: the same bytes as the program's, frames over its memory, interruption, resumption."""
+
+import filecmp
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import time
+import unittest
+
+import kith
+import numpy as np
+from support import PROGRAM, SMALL, lake_domain
+
+
+class Runs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.run_ = kith.study("quick", cls.folder / "run", progress=False, **SMALL)
+
+    @classmethod
+    def tearDownClass(cls):
+        del cls.run_
+        cls.temporary.cleanup()
+
+    @unittest.skipUnless(os.path.exists(PROGRAM), "the program is not built")
+    def test_tables_are_the_programs(self):
+        out = self.folder / "program"
+        subprocess.run([PROGRAM, "study", "quick", "-o", out, "--set", "replicates=1", "--set", "teacher.particles=200",
+                        "--set", "stop.max_periods=6"], check=True, capture_output=True)
+        names = os.listdir(out / "tables")
+        self.assertEqual(filecmp.cmpfiles(out / "tables", self.run_.folder / "tables", names, shallow=False)[1:], ([], []))
+
+    def test_frames_look_at_its_memory(self):
+        tables = self.run_.tables
+        teams = tables["teams"]
+        self.assertIs(teams, tables["teams"])
+        for name in ("knowledge", "periods", "completed", "team"):
+            column = teams[name].to_numpy()
+            self.assertTrue(np.shares_memory(column, tables.native("teams").column(name)), name)
+            self.assertFalse(column.flags.writeable)
+        self.assertEqual(teams["completed"].dtype, bool)
+        self.assertEqual(teams["periods"].dtype, np.int64)
+        self.assertEqual(list(tables), [f[:-4] for f in sorted(os.listdir(self.run_.folder / "tables")) if f.endswith(".csv")]
+                         if sorted(tables) == list(tables) else list(tables))
+        self.assertIn("knowledge", tables.codebook("teams").index)
+        with self.assertRaises(KeyError):
+            tables["nothing"]
+
+    def test_frames_are_what_pandas_reads(self):
+        import pandas as pd
+        for name in self.run_.tables:
+            frame = self.run_.tables[name]
+            read = pd.read_csv(self.run_.folder / "tables" / f"{name}.csv")
+            self.assertEqual(list(frame), list(read))
+            for column in frame.select_dtypes("number"):
+                np.testing.assert_array_equal(frame[column].to_numpy(float), read[column].to_numpy(float))
+
+    def test_what_is_made_of_it(self):
+        analysis = self.run_.analyze(permutations=99)
+        self.assertTrue(len(analysis) > 0 and analysis[0].sentence)
+        self.assertEqual(analysis[analysis[0].id].id, analysis[0].id)
+        self.assertTrue(analysis[0].tables)
+        self.assertIn("<details>", analysis._repr_html_())
+        self.assertEqual(self.run_.analyze("periods ~ strategy")[0].model[:7], "periods")
+        self.assertEqual(self.run_.verify(progress=False)["checked"], len(self.run_.tables["teams"]))
+        self.assertIn("<table", self.run_._repr_html_())
+        with self.assertRaises(kith.Error):
+            self.run_.analyze("nothing ~ strategy")
+        told = self.run_.team(1)
+        self.assertEqual(told.periods, int(self.run_.tables["teams"]["periods"][0]))
+        people = self.run_.audit(1, progress=False)["people"]
+        self.assertEqual(len(people), len(self.run_.tables["teams"]["composition"][0]))
+
+    def test_the_report_is_one_page(self):
+        try:
+            report = self.run_.report(self.folder / "page.html")
+        except kith.Error as error:
+            self.skipTest(str(error))
+        self.assertIn("<iframe", report._repr_html_())
+        self.assertTrue(report.path.read_text().startswith("<!"))
+
+    def test_the_same_again_is_resumed(self):
+        again = kith.study("quick", self.folder / "run", progress=False, **SMALL)
+        self.assertEqual(again.resumed, len(again.tables["teams"]))
+        with self.assertRaises(kith.Error) as caught:
+            kith.study("quick", self.folder / "run", progress=False, seed=99, **SMALL)
+        self.assertIn("replace=True", str(caught.exception))
+
+    def test_a_dictionary_and_a_robot_of_ones_own(self):
+        told = []
+        run = kith.study({"domain": lake_domain(kith), "replicates": 1, "seed": 3,
+                          "design": {"strategies": ["joint"], "compositions": ["NP"]},
+                          "learner": {"N": {"ability": {"mean": 0.7, "sd": 0.03}}, "P": {"ability": {"mean": 0.8, "sd": 0.03}}},
+                          "teacher": {"particles": 200}, "stop": {"max_periods": 4}},
+                         progress=lambda *where: told.append(where))
+        self.assertEqual(list(run.tables["teams"]["strategy"]), ["joint"])
+        self.assertTrue(all(total == 1 for _, total, _ in told))
+        folder = run.folder
+        del run
+        import gc
+        gc.collect()
+        self.assertFalse(folder.exists())
+
+    def test_power_counts_teams(self):
+        curves = kith.power("quick", "periods: strategy", teams=[2, 4], pool=8, draws=20, progress=False,
+                            teacher={"particles": 100}, stop={"max_periods": 4})
+        self.assertEqual([one["teams"] for one in curves["effects"][0]["points"]], [2, 4])
+
+    def test_what_is_wrong_is_refused(self):
+        for wrong in (dict(study="nothing"), dict(study="quick", teacher={"partikel": 3}), dict(study={"domain": 3})):
+            with self.assertRaises(kith.Error, msg=str(wrong)) as caught:
+                kith.study(**wrong, out=self.folder / "wrong", progress=False)
+            self.assertTrue(caught.exception.diagnostics)
+        self.assertFalse((self.folder / "wrong").exists())
+        for wrong in (dict(resume="maybe"), dict(threads=-1), dict(progress=3)):
+            with self.assertRaises((ValueError, TypeError)):
+                kith.study("quick", self.folder / "wrong", **wrong)
+
+
+class Interruption(unittest.TestCase):
+    def test_ctrl_c_ends_it_and_the_same_call_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = textwrap.dedent(f"""
+                import kith, sys
+                def told(done, total, failed):
+                    print(done, flush=True)
+                kith.study("paper", {folder + "/run"!r}, progress=told, threads=1, replicates=20)
+            """)
+            process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            process.stdout.readline()
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate(timeout=60)
+            self.assertIn("KeyboardInterrupt", errors)
+            self.assertGreater(kith.Run(folder + "/run").status["done"], 0)
+
+    def test_what_on_progress_raises_is_raised(self):
+        class Enough(Exception):
+            pass
+
+        def told(done, total, failed):
+            raise Enough
+
+        with tempfile.TemporaryDirectory() as folder, self.assertRaises(Enough):
+            kith.study("quick", folder + "/run", progress=told, replicates=20)
+
+
+if __name__ == "__main__":
+    unittest.main()
