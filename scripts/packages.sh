@@ -16,7 +16,7 @@ packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
 packages_for_lesson=(emscripten)  # LLVM for WebAssembly
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
   slowhttptest
-  mypy python3-matplotlib python3-nbclient python3-ipykernel python3-pip
+  mypy python3-matplotlib python3-pip python3-setuptools python3-wheel
   r-base-core r-cran-car r-cran-emmeans r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-survival)
 
 # is_installed NAME: as a package; or, where people often have another source than Debian, as a command.

@@ -16,21 +16,23 @@ from ._core import Cone, LearnerStart, ParticleBelief, RandomStream, Unit, View
 from ._domain import Domain
 from ._env import TeachingEnv
 from ._errors import Diagnostic, Error, Warning
+from ._infer import Explanation, explain_policy
 from ._kinds import Learner, Strategy, strategies
 from ._records import (Component, Counts, Demonstration, Feedback, HalfSpace, Lesson, Path, Period, Start, Test, Verdict,
                        World)
 from ._session import People, Session
-from ._study import Analysis, Finding, Report, Run, Tables, audit, fit, power, study
+from ._study import Analysis, Finding, Report, Run, Tables, audit, calibrate, fit, power, study
 from ._teach import Record, Transcript, replay, teach
 from ._core import program as _program
 
 __version__ = _program().split()[0]
 
 __all__ = [
-    "Analysis", "Component", "Cone", "Counts", "Demonstration", "Diagnostic", "Domain", "Error", "Feedback", "Finding",
+    "Analysis", "Component", "Cone", "Counts", "Demonstration", "Diagnostic", "Domain", "Error", "Explanation", "Feedback",
+    "Finding",
     "HalfSpace", "Learner", "LearnerStart", "Lesson", "ParticleBelief", "Path", "People", "Period", "RandomStream",
     "Record", "Report", "Run", "Session", "Start", "Strategy", "Tables", "TeachingEnv", "Test", "Transcript", "Unit",
-    "Verdict", "View", "Warning", "World", "audit", "fit", "power", "region", "replay", "strategies", "study", "teach",
+    "Verdict", "View", "Warning", "World", "audit", "calibrate", "explain_policy", "fit", "power", "region", "replay", "strategies", "study", "teach",
 ]
 
 

@@ -7,10 +7,13 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path as FilePath
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _core
 from ._records import Component, Path, Start, World
+
+if TYPE_CHECKING:
+    from ._infer import Explanation
 
 Features = Union[Mapping[str, Callable[[int, int, int], float]], Any]
 """Functions of (state, action, next state) by name, or an array; see Domain.from_gymnasium()."""
@@ -73,6 +76,28 @@ class Domain:
         from ._models import domain_from_table
 
         return cls._of(domain_from_table(env, features, weights, **options))
+
+    @classmethod
+    def from_policy(cls, transitions: Any, features: Any, policy: Any, *, discount: float = 1.0, prior: Any = None,
+                    terminal: Optional[Sequence[int]] = None, **options: Any) -> Domain:
+        """A robot whose reward nobody wrote down: weights under which its policy is optimal or, if there are none, that
+        explain most of it. Only starts are taught that they explain; see kith.explain_policy(), and `explanation`.
+
+        policy: an action per state, shape [S], or probabilities, shape [S, A]; the others as of from_arrays().
+        """
+        from ._infer import explain_policy
+        from ._models import domain_from_arrays, explained_starts
+
+        explanation = explain_policy(transitions, features, policy, discount=discount, terminal=terminal, prior=prior)
+        if explanation.unexplained:
+            options["starts"] = explained_starts(transitions, policy, terminal, explanation.unexplained)
+        domain = cls._of(domain_from_arrays(transitions, features, explanation.weights, discount=discount, prior=prior,
+                                            terminal=terminal, **options))
+        domain.explanation = explanation
+        return domain
+
+    explanation: Optional[Explanation] = None
+    """Of a domain that was made from a policy: how well its weights explain it."""
 
     @staticmethod
     def built_in() -> list[str]:

@@ -15,7 +15,7 @@ def _gymnasium() -> Any:
     return sys.modules.get("gymnasium")
 
 
-def _base() -> type:
+def _base() -> Any:
     """Gymnasium's Env where somebody has imported it, so that its checker and wrappers know the class."""
     gymnasium = _gymnasium()
     return gymnasium.Env if gymnasium is not None else object
@@ -35,7 +35,7 @@ class _Discrete:
         return self._random.randrange(self.n)
 
     def contains(self, x: Any) -> bool:
-        return int(x) == x and 0 <= x < self.n
+        return bool(int(x) == x and 0 <= x < self.n)
 
 
 class _Box:

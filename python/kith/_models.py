@@ -114,12 +114,30 @@ def domain_from_arrays(transitions: Any, features: Any, weights: Any, *, termina
         rows: list[Any] = []
         for a in range(actions):
             outcomes = []
-            for t in np.flatnonzero(chance[s, a]) if not ends[s] else []:
+            leads_to: list[int] = [] if ends[s] else np.flatnonzero(chance[s, a]).tolist()
+            for t in leads_to:
                 row = phi[s, a, t if phi.shape[2] > 1 else 0]
-                outcomes.append([float(chance[s, a, t]), int(t), [float(x) for x in row], bool(ends[t])])
+                outcomes.append([float(chance[s, a, t]), t, [float(x) for x in row], bool(ends[t])])
             rows.append(outcomes)
         table.append(rows)
     return _domain(table, names, _weights(weights, names), _names(action_names, actions, "action"), **options)
+
+
+def explained_starts(transitions: Any, policy: Any, terminal: Optional[Sequence[int]], unexplained: Sequence[int]) -> list[int]:
+    """States from which the policy meets none of the unexplained ones."""
+    import numpy as np
+
+    chance, choice = _numbers(transitions, "transitions"), _numbers(policy, "policy")
+    takes = np.eye(chance.shape[1])[choice.astype(int)] if choice.ndim == 1 else choice
+    leads = np.einsum("sa,sat->st", takes, chance) > 0
+    meets = np.isin(np.arange(len(chance)), list(unexplained))
+    while True:
+        more = meets | (leads & meets).any(axis=1)
+        if (more == meets).all():
+            break
+        meets = more
+    ends = [s for s in range(len(chance)) if leads[s, s] and leads[s].sum() == 1] if terminal is None else [int(s) for s in terminal]
+    return [s for s in range(len(chance)) if not meets[s] and s not in ends]
 
 
 def _gym_table(env: Any) -> Any:

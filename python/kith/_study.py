@@ -34,11 +34,9 @@ class _Inputs:
         keys: dict[str, Any] = dict(settings)
         self.name, self.text = "study", ""
         if isinstance(study, Mapping):
-            table = {"schema": "kith.study/1", "id": "study", **study}
+            table: dict[str, Any] = {"schema": "kith.study/1", "id": "study", **study}
             if isinstance(table.get("domain"), Domain):
-                domain = table.pop("domain")
-                table["domain"] = self._saved(domain)
-                domain = None
+                table["domain"] = self._saved(table["domain"])
             self.text = toml_text(table)
         else:
             self.name = os.fspath(study)
@@ -317,6 +315,25 @@ def power(study: StudySource, *effects: str, teams: Sequence[int] = (5, 10, 15, 
             document: dict[str, Any] = json.loads(
                 _core.power(inputs.name, inputs.text, inputs.overrides, list(effects), list(teams), target, alpha, pool,
                             draws, paired, threads, bar.callback))
+    finally:
+        inputs.close()
+    return document
+
+
+def calibrate(study: StudySource, targets: Union[str, os.PathLike[str]], *, rounds: int = 3, points: int = 64, teams: int = 40,
+              confirm_teams: int = 200, seed: int = 1, threads: int = 0, progress: Progress = "auto",
+              domain: Optional[Domain] = None, **settings: Any) -> dict[str, Any]:
+    """Fits the free parameters of a study to published figures: the path of a targets file.
+
+    Its "settings" are the study's keys with the values found, and "parameters" has their 95 % intervals.
+    """
+    inputs = _Inputs(study, settings, domain, (), {})
+    file = FilePath(targets)
+    try:
+        with Bar(progress, "calibrating") as bar:
+            document: dict[str, Any] = json.loads(
+                _core.calibrate(inputs.name, inputs.text, inputs.overrides, file.read_text(encoding="utf-8"), str(file), rounds,
+                                points, teams, confirm_teams, seed, threads, bar.callback))
     finally:
         inputs.close()
     return document

@@ -298,7 +298,8 @@ void bind_own_strategies(py::module_& module) {
           "period", [](const View& self) { return self.get().period; }, "The coming one, from 1.")
       .def_property_readonly(
           "component", [](const View& self) { return self.get().component; }, "What is to be taught, from 0.")
-      .def_property_readonly("num_members", [](const View& self) { return self.get().belief.num_members(); })
+      .def_property_readonly(
+          "num_members", [](const View& self) { return self.get().belief.num_members(); }, "Seats.")
       .def_property_readonly(
           "present", [](const View& self) { return self.get().belief.present(); }, "Who takes part, by seat.")
       .def_property_readonly(

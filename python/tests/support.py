@@ -6,7 +6,7 @@ import pathlib
 SOURCE = pathlib.Path(os.environ.get("KITH_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
 PROGRAM = os.environ.get("KITH_PROGRAM", "")
 
-SMALL = {"replicates": 1, "teacher": {"particles": 200}, "stop": {"max_periods": 6}}
+SMALL = {"replicates": 2, "teacher": {"particles": 200}, "stop": {"max_periods": 6}}
 """Settings that make the study `quick` quicker."""
 
 

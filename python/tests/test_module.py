@@ -42,9 +42,10 @@ class Types(unittest.TestCase):
     def test_stubs_are_what_the_module_is(self):
         place = pathlib.Path(kith.__file__).parents[1]
         with tempfile.TemporaryDirectory() as folder:
-            found = subprocess.run(["stubtest", "kith._core", "--ignore-missing-stub"], cwd=folder, capture_output=True,
+            found = subprocess.run(["stubtest", "kith._core", "--concise"], cwd=folder, capture_output=True,
                                    text=True, env={**os.environ, "MYPYPATH": str(place), "PYTHONPATH": str(place)})
-        self.assertEqual(found.returncode, 0, found.stdout[-4000:] + found.stderr[-2000:])
+        differences = [line for line in found.stdout.splitlines() if "metaclass differs" not in line]  # pybind11's own
+        self.assertEqual((differences, found.stderr), ([], ""))
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_the_package_is_strict(self):

@@ -15,14 +15,14 @@ def run(path):
     for cell in json.loads(path.read_text())["cells"]:
         if cell["cell_type"] != "code":
             continue
-        tree = ast.parse("".join(cell["source"]), str(path))
+        tree = ast.parse("".join(cell["source"]), path.name)
         last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
         with contextlib.redirect_stdout(io.StringIO()):
-            exec(compile(tree, str(path), "exec"), scope)
+            exec(compile(tree, path.name, "exec"), scope)
             if last is not None:
-                value = eval(compile(ast.Expression(last.value), str(path), "eval"), scope)
-                page = value._repr_html_() if hasattr(value, "_repr_html_") else repr(value)
-                shown.append(page)
+                value = eval(compile(ast.Expression(last.value), path.name, "eval"), scope)
+                page = value._repr_html_() if hasattr(value, "_repr_html_") else ""
+                shown.append(page or repr(value))
     return shown
 
 

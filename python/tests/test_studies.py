@@ -31,7 +31,7 @@ class Runs(unittest.TestCase):
     @unittest.skipUnless(os.path.exists(PROGRAM), "the program is not built")
     def test_tables_are_the_programs(self):
         out = self.folder / "program"
-        subprocess.run([PROGRAM, "study", "quick", "-o", out, "--set", "replicates=1", "--set", "teacher.particles=200",
+        subprocess.run([PROGRAM, "study", "quick", "-o", out, "--set", "replicates=2", "--set", "teacher.particles=200",
                         "--set", "stop.max_periods=6"], check=True, capture_output=True)
         names = os.listdir(out / "tables")
         self.assertEqual(filecmp.cmpfiles(out / "tables", self.run_.folder / "tables", names, shallow=False)[1:], ([], []))
@@ -56,7 +56,7 @@ class Runs(unittest.TestCase):
         import pandas as pd
         for name in self.run_.tables:
             frame = self.run_.tables[name]
-            read = pd.read_csv(self.run_.folder / "tables" / f"{name}.csv")
+            read = pd.read_csv(self.run_.folder / "tables" / f"{name}.csv", float_precision="round_trip")
             self.assertEqual(list(frame), list(read))
             for column in frame.select_dtypes("number"):
                 np.testing.assert_array_equal(frame[column].to_numpy(float), read[column].to_numpy(float))
@@ -94,13 +94,14 @@ class Runs(unittest.TestCase):
 
     def test_a_dictionary_and_a_robot_of_ones_own(self):
         told = []
-        run = kith.study({"domain": lake_domain(kith), "replicates": 1, "seed": 3,
+        run = kith.study({"domain": lake_domain(kith), "replicates": 2, "seed": 3,
                           "design": {"strategies": ["joint"], "compositions": ["NP"]},
-                          "learner": {"N": {"ability": {"mean": 0.7, "sd": 0.03}}, "P": {"ability": {"mean": 0.8, "sd": 0.03}}},
+                          "learner": {letter: {"ability": {"mean": mean, "sd": 0.03}, "confirm_gain": {"half_normal": 0.03},
+                                               "correct_gain": {"half_normal": 0.05}} for letter, mean in (("N", 0.7), ("P", 0.8))},
                           "teacher": {"particles": 200}, "stop": {"max_periods": 4}},
                          progress=lambda *where: told.append(where))
-        self.assertEqual(list(run.tables["teams"]["strategy"]), ["joint"])
-        self.assertTrue(all(total == 1 for _, total, _ in told))
+        self.assertEqual(list(run.tables["teams"]["strategy"]), ["joint", "joint"])
+        self.assertTrue(all(total == 2 for _, total, _ in told))
         folder = run.folder
         del run
         import gc
@@ -108,8 +109,8 @@ class Runs(unittest.TestCase):
         self.assertFalse(folder.exists())
 
     def test_power_counts_teams(self):
-        curves = kith.power("quick", "periods: strategy", teams=[2, 4], pool=8, draws=20, progress=False,
-                            teacher={"particles": 100}, stop={"max_periods": 4})
+        curves = kith.power("paper", "periods: strategy", teams=[2, 4], pool=8, draws=20, progress=False, teacher={"particles": 100},
+                            stop={"max_periods": 4}, strategies=["joint", "common"])
         self.assertEqual([one["teams"] for one in curves["effects"][0]["points"]], [2, 4])
 
     def test_what_is_wrong_is_refused(self):
