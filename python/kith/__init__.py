@@ -28,11 +28,11 @@ from ._core import program as _program
 __version__ = _program().split()[0]
 
 __all__ = [
-    "Analysis", "Component", "Cone", "Counts", "Demonstration", "Diagnostic", "Domain", "Error", "Explanation", "Feedback",
-    "Finding",
-    "HalfSpace", "Learner", "LearnerStart", "Lesson", "ParticleBelief", "Path", "People", "Period", "RandomStream",
-    "Record", "Report", "Run", "Session", "Start", "Strategy", "Tables", "TeachingEnv", "Test", "Transcript", "Unit",
-    "Verdict", "View", "Warning", "World", "audit", "calibrate", "explain_policy", "fit", "power", "region", "replay", "strategies", "study", "teach",
+    "Analysis", "Component", "Cone", "Counts", "Demonstration", "Diagnostic", "Domain", "Error", "Explanation",
+    "Feedback", "Finding", "HalfSpace", "Learner", "LearnerStart", "Lesson", "ParticleBelief", "Path", "People",
+    "Period", "RandomStream", "Record", "Report", "Run", "Session", "Start", "Strategy", "Tables", "TeachingEnv",
+    "Test", "Transcript", "Unit", "Verdict", "View", "Warning", "World", "audit", "calibrate", "explain_policy",
+    "fit", "power", "region", "replay", "strategies", "study", "teach",
 ]
 
 

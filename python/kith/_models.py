@@ -25,6 +25,8 @@ def _numbers(array: Any, what: str) -> Any:
     import numpy as np
 
     try:
+        if np.iscomplexobj(array):
+            raise TypeError("complex numbers")
         numbers = np.asarray(array, dtype=float)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{what} must be an array of numbers: {error}") from None
