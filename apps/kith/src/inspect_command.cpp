@@ -86,7 +86,7 @@ class Inspection {
     if (!map) return model();
     const DemoId start{mdp_, domain_.initial_state(mdp_)};
     return (map->is_picture() ? model() : "") +
-           heading_text(fmt::format("Map of {}, and its first start", mdp_text(domain_, mdp_))) +
+           heading_text(fmt::format("Map of {}, and its first start", world_text(domain_, mdp_))) +
            beside({bare_picture(*map, start), start_picture(*map, start)}, 2) + "\n" + legend(domain_, 2);
   }
 
@@ -94,7 +94,7 @@ class Inspection {
   [[nodiscard]] std::string model() const {
     const auto& mdp = domain_.mdp(mdp_);
     const auto name = domain_.describe_variant(mdp_);
-    auto text = heading_text(fmt::format("Model of MDP {}{}", mdp_.value(), name.empty() ? "" : ": " + name)) +
+    auto text = heading_text(fmt::format("Model of world {}{}", mdp_.value(), name.empty() ? "" : ": " + name)) +
                 fmt::format("  {} and {}, {}, {}\n", counted(mdp.num_states(), "state"),
                             counted(mdp.num_terminals(), "terminal one"), counted(mdp.num_actions(), "action"),
                             mdp.is_deterministic() ? "outcomes are certain" : "outcomes are uncertain") +
@@ -142,7 +142,7 @@ class Inspection {
 
   // For every configuration on the way from the start, or as a table.
   [[nodiscard]] std::string policy() const {
-    auto text = heading_text(fmt::format("The robot's policy in {}", mdp_text(domain_, mdp_)));
+    auto text = heading_text(fmt::format("The robot's policy in {}", world_text(domain_, mdp_)));
     const auto& mdp = domain_.mdp(mdp_);
     const auto map = domain_.drawing();
     if (!map) return text + policy_table();
@@ -255,7 +255,7 @@ class Inspection {
   void demos() {
     const auto& starts = domain_.starts(mdp_);
     const auto n = starts.size();
-    heading(fmt::format("Demonstrations of {}: {}", mdp_text(domain_, mdp_), n));
+    heading(fmt::format("Demonstrations of {}: {}", world_text(domain_, mdp_), n));
     for (std::size_t i = 0; i < limited(n); ++i) {
       const auto demo = atlas_->index({mdp_, starts[i]});
       const auto path = atlas_->trajectory(demo);
@@ -277,7 +277,7 @@ class Inspection {
       out_ += "  " + described(domain_, half_space) + fmt::format(": {} start states\n", tests.size());
       if (tests.empty()) continue;
       const auto id = atlas_->id(tests.front());
-      out_ += fmt::format("    for instance {}, start {}\n", mdp_text(domain_, id.mdp), id.start.value());
+      out_ += fmt::format("    for instance {}, start {}\n", world_text(domain_, id.mdp), id.start.value());
       const auto path = atlas_->trajectory(tests.front());
       out_ += start_and_path(domain_, id, path, 4);
       if (path.repeats_from) out_ += "    and so on: " + never_in_words(domain_, id.mdp, path) + "\n";
@@ -286,7 +286,7 @@ class Inspection {
 
   void counterfactuals() {
     const auto demo = atlas_->index({mdp_, domain_.initial_state(mdp_)});
-    heading(fmt::format("What people could expect from the start of {}", mdp_text(domain_, mdp_)));
+    heading(fmt::format("What people could expect from the start of {}", world_text(domain_, mdp_)));
     if (const auto map = domain_.drawing()) {
       out_ += beside({bare_picture(*map, atlas_->id(demo)), start_picture(*map, atlas_->id(demo))}, 4);
     } else {

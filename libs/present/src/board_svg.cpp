@@ -9,41 +9,29 @@
 #include <numbers>
 #include <string_view>
 
+#include "drawing.hpp"
+
 namespace kith {
 namespace {
 
 constexpr double kCell = 40.0;
 constexpr double kMargin = 22.0;
-constexpr const char* kInk = "#1c2127";
-
-struct Tint {
-  std::string_view name, ground, mark;
-};
-constexpr std::array<Tint, 9> kTints{{{"dark", "#4a525c", "#2b3138"},
-                                      {"brown", "#e9dcc9", "#8f6f45"},
-                                      {"blue", "#d3e4f7", "#5b8db8"},
-                                      {"green", "#d9ecd9", "#5d9a64"},
-                                      {"purple", "#e6dcf3", "#8d6fb5"},
-                                      {"grey", "#e1e4e8", "#87909b"},
-                                      {"orange", "#fbdcbf", "#c9762b"},
-                                      {"red", "#f7d4d0", "#c25a50"},
-                                      {"yellow", "#f8edc0", "#b39a3a"}}};
-
 void add_once(std::vector<std::string>& all, const std::string& name) {
   if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
 }
 
-const Tint& tint_called(std::string_view name) {
-  return *std::find_if(kTints.begin(), kTints.end(), [&](const Tint& tint) { return tint.name == name; });
-}
-
-// A mark of a texture around (x, y).
-std::string mark_of(std::string_view pattern, double x, double y) {
-  const auto at = [&](double dx, double dy) { return "M" + svg_number(x + dx) + " " + svg_number(y + dy); };
-  if (pattern == "dots") return at(-0.8, -0.8) + "h1.6v1.6h-1.6z";
-  if (pattern == "lines") return at(-2, 2) + "l4 -4";
-  if (pattern == "cross") return at(-3, 0) + "h6" + at(0, -3) + "v6";
-  return at(-5, 0) + "q2.5 -3 5 0t5 0";
+// A terrain's texture on a whole cell around (0, 0): four by four tiles.
+std::string marks_of(const detail::Texture& texture) {
+  constexpr double kTile = 10.0;
+  std::string marks;
+  for (double top = -kCell / 2; top < kCell / 2; top += kTile) {
+    for (double left = -kCell / 2; left < kCell / 2; left += kTile) {
+      for (const auto& [x, y] : texture.at) {
+        marks += "M" + svg_number(left + x) + " " + svg_number(top + y) + texture.path;
+      }
+    }
+  }
+  return marks;
 }
 
 std::string capital(const std::string& name, std::size_t n) {
@@ -52,9 +40,40 @@ std::string capital(const std::string& name, std::size_t n) {
   return text;
 }
 
-void centred(Svg& svg, double x, double y, const std::string& words, double size) {
-  svg.text(x, y + 0.36 * size, words,
-           {{"text-anchor", "middle"}, {"font-size", svg_number(size)}, {"font-weight", "bold"}, {"fill", kInk}});
+// A picture of a thing or, if there is none, its letters.
+void sign(Svg& svg, const std::string& name, const std::string& letters, double size, double y = 0.0,
+          const std::string& opacity = "1") {
+  const auto& ink = detail::board_color("ink");
+  const auto* icon = detail::icon_of(name);
+  if (icon == nullptr) {
+    svg.text(0, y + 0.3 * size, letters,
+             {{"text-anchor", "middle"},
+              {"font-size", svg_number(0.8 * size)},
+              {"font-weight", "bold"},
+              {"fill", ink},
+              {"opacity", opacity}});
+    return;
+  }
+  const bool is_filled = !icon->fill.empty();
+  svg.add("path", {{"d", is_filled ? icon->fill : icon->line},
+                   {"transform", fmt::format("translate(0 {}) scale({})", svg_number(y), svg_number(size / 16.0))},
+                   {"fill", is_filled ? ink : "none"},
+                   {"stroke", is_filled ? "none" : ink},
+                   {"stroke-width", "1.6"},
+                   {"stroke-linejoin", "round"},
+                   {"opacity", opacity}});
+}
+
+void square(Svg& svg, double half, double rx, const std::string& fill, const std::string& dashes = "none") {
+  svg.add("rect", {{"x", svg_number(-half)},
+                   {"y", svg_number(-half)},
+                   {"width", svg_number(2 * half)},
+                   {"height", svg_number(2 * half)},
+                   {"rx", svg_number(rx)},
+                   {"fill", fill},
+                   {"stroke", detail::board_color("ink")},
+                   {"stroke-width", "1.5"},
+                   {"stroke-dasharray", dashes}});
 }
 
 }  // namespace
@@ -88,90 +107,65 @@ std::string BoardSvg::letters(const std::string& name) const {
   return at == things_.end() ? "" : letters_[static_cast<std::size_t>(at - things_.begin())];
 }
 
-void BoardSvg::terrain(Svg& svg, const Point& at, const std::string& name) const {
-  const auto surface =
-      std::find_if(surfaces_.begin(), surfaces_.end(), [&](const Surface& one) { return one.name == name; });
-  const auto& tint = tint_called(surface->tint);
-  const double half = kCell / 2;
-  svg.add("rect", {{"x", svg_number(at.x - half)},
-                   {"y", svg_number(at.y - half)},
+Svg BoardSvg::terrain(const std::string& name) const {
+  const auto surface = std::ranges::find(surfaces_, name, &Surface::name);
+  const auto tint = std::ranges::find(detail::tints(), surface->tint, &detail::Tint::name);
+  const auto texture = std::ranges::find(detail::textures(), surface->pattern, &detail::Texture::name);
+  Svg svg;
+  svg.add("rect", {{"x", svg_number(-kCell / 2)},
+                   {"y", svg_number(-kCell / 2)},
                    {"width", svg_number(kCell)},
                    {"height", svg_number(kCell)},
-                   {"fill", std::string{tint.ground}}});
-  std::string marks;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      const double shift = surface->pattern == "dots" ? (j % 2) * 3.0 : 0.0;
-      marks += mark_of(surface->pattern, at.x - half + 5.0 + 10.0 * i + shift, at.y - half + 5.0 + 10.0 * j);
-    }
-  }
-  svg.add("path", {{"d", marks},
-                   {"fill", surface->pattern == "dots" ? std::string{tint.mark} : "none"},
-                   {"stroke", std::string{tint.mark}}});
+                   {"fill", tint->ground}});
+  svg.add("path", {{"d", marks_of(*texture)},
+                   {"fill", texture->is_filled ? tint->mark : "none"},
+                   {"stroke", texture->is_filled ? "none" : tint->mark}});
+  return svg;
 }
 
-void BoardSvg::disc(Svg& svg, const Point& at, const std::string& sign) const {
-  svg.add("circle", {{"cx", svg_number(at.x)},
-                     {"cy", svg_number(at.y)},
-                     {"r", "10.5"},
-                     {"fill", "#cfe6d8"},
-                     {"stroke", kInk},
-                     {"stroke-width", "1.5"}});
-  centred(svg, at.x, at.y, sign, 12);
+Svg BoardSvg::item(const std::string& name) const {
+  Svg svg;
+  square(svg, 11, 5, detail::board_color("thing"));
+  sign(svg, name, letters(name), 16);
+  return svg;
 }
 
-void BoardSvg::station(Svg& svg, const Point& at, const std::string& sign) const {
-  svg.add("rect", {{"x", svg_number(at.x - 12)},
-                   {"y", svg_number(at.y - 12)},
-                   {"width", "24"},
-                   {"height", "24"},
-                   {"rx", "4"},
-                   {"fill", "#ffe08a"},
-                   {"stroke", kInk},
-                   {"stroke-width", "1.5"}});
-  centred(svg, at.x, at.y, sign, 13);
+Svg BoardSvg::station(const std::string& name) const {
+  Svg svg;
+  square(svg, 12, 4, detail::board_color("station"));
+  sign(svg, name, letters(name), 17);
+  return svg;
 }
 
-void BoardSvg::destination(Svg& svg, const Point& at, const std::string& sign) const {
-  for (const double r : {14.5, 10.5}) {
-    svg.add("circle", {{"cx", svg_number(at.x)},
-                       {"cy", svg_number(at.y)},
-                       {"r", svg_number(r)},
-                       {"fill", "#ffffff"},
-                       {"stroke", kInk},
-                       {"stroke-width", "1.5"},
-                       {"stroke-dasharray", r > 12 ? "3 2.2" : "none"}});
-  }
-  centred(svg, at.x, at.y, sign, 12);
+Svg BoardSvg::destination(const std::string& name) const {
+  Svg svg;
+  square(svg, 15, 6, detail::board_color("floor"), "4.5 3");
+  sign(svg, name, letters(name), 18, 0.0, "0.4");
+  return svg;
 }
 
-void BoardSvg::goal(Svg& svg, const Point& at, const std::string& sign) const {
-  svg.add("path", {{"d", fmt::format("M{0} {1}v-28", svg_number(at.x - 9), svg_number(at.y + 14))},
-                   {"stroke", kInk},
-                   {"stroke-width", "2.4"}});
-  svg.add("path", {{"d", fmt::format("M{} {}h22l-5 7.5l5 7.5h-22z", svg_number(at.x - 9), svg_number(at.y - 14))},
-                   {"fill", "#b9e2c6"},
-                   {"stroke", kInk},
+Svg BoardSvg::goal(const std::string& name) const {
+  const auto& ink = detail::board_color("ink");
+  Svg svg;
+  svg.add("path", {{"d", "M-9 14V-14"}, {"stroke", ink}, {"stroke-width", "2.4"}});
+  svg.add("path", {{"d", "M-9 -14H13L8 -6.5 13 1H-9Z"},
+                   {"fill", detail::board_color("goal")},
+                   {"stroke", ink},
                    {"stroke-width", "1.4"}});
-  centred(svg, at.x - 1, at.y - 6.5, sign, 11);
+  if (!name.empty()) sign(svg, name, letters(name), 14, -6.5);
+  return svg;
 }
 
-void BoardSvg::robot(Svg& svg, const Point& at) const {
-  const auto x = [&](double by) { return svg_number(at.x + by); };
-  const auto y = [&](double by) { return svg_number(at.y + by); };
-  svg.add("path", {{"d", "M" + x(0) + " " + y(-10) + "v-5"}, {"stroke", kInk}, {"stroke-width", "2"}});
-  svg.add("circle", {{"cx", x(0)}, {"cy", y(-15.5)}, {"r", "2.4"}, {"fill", kInk}});
-  svg.add("rect", {{"x", x(-11)},
-                   {"y", y(-10)},
-                   {"width", "22"},
-                   {"height", "21"},
-                   {"rx", "6"},
-                   {"fill", kInk},
-                   {"stroke", "#ffffff"}});
-  for (const double eye : {-4.6, 4.6}) {
-    svg.add("circle", {{"cx", x(eye)}, {"cy", y(-2)}, {"r", "2.6"}, {"fill", "#ffffff"}});
-  }
-  svg.add("path", {{"d", "M" + x(-4) + " " + y(5.5) + "h8"}, {"stroke", "#ffffff"}, {"stroke-width", "1.8"}});
+Svg BoardSvg::robot() const {
+  const auto& ink = detail::board_color("robot");
+  const auto& floor = detail::board_color("floor");
+  Svg svg;
+  svg.add("path", {{"d", "M0 -10V-15"}, {"stroke", ink}, {"stroke-width", "2"}});
+  svg.add("circle", {{"cy", "-15.5"}, {"r", "2.4"}, {"fill", ink}});
+  svg.add("rect", {{"x", "-11"}, {"y", "-10"}, {"width", "22"}, {"height", "21"}, {"rx", "6"}, {"fill", ink}});
+  for (const auto* eye : {"-4.6", "4.6"}) svg.add("circle", {{"cx", eye}, {"cy", "-2"}, {"r", "2.6"}, {"fill", floor}});
+  svg.add("path", {{"d", "M-4 5.5h8"}, {"stroke", floor}, {"stroke-width", "1.8"}});
+  return svg;
 }
 
 void BoardSvg::grid(Svg& svg) const {
@@ -180,19 +174,19 @@ void BoardSvg::grid(Svg& svg) const {
   for (int x = 0; x <= map_.width(); ++x) {
     const double at = kMargin + kCell * x;
     const bool edge = x == 0 || x == map_.width();
-    svg.line(at, kMargin, at, bottom, {{"stroke", edge ? "#57606a" : "#d5d9de"}});
+    svg.line(at, kMargin, at, bottom, {{"stroke", edge ? detail::board_color("frame") : detail::board_color("grid")}});
     if (x > 0) {
       svg.text(at - kCell / 2, kMargin - 7, std::to_string(x),
-               {{"text-anchor", "middle"}, {"font-size", "11"}, {"fill", "#57606a"}});
+               {{"text-anchor", "middle"}, {"font-size", "11"}, {"fill", detail::board_color("frame")}});
     }
   }
   for (int y = 0; y <= map_.height(); ++y) {
     const double at = kMargin + kCell * y;
     const bool edge = y == 0 || y == map_.height();
-    svg.line(kMargin, at, right, at, {{"stroke", edge ? "#57606a" : "#d5d9de"}});
+    svg.line(kMargin, at, right, at, {{"stroke", edge ? detail::board_color("frame") : detail::board_color("grid")}});
     if (y > 0) {
       svg.text(kMargin - 6, at - kCell / 2 + 4, std::to_string(y),
-               {{"text-anchor", "end"}, {"font-size", "11"}, {"fill", "#57606a"}});
+               {{"text-anchor", "end"}, {"font-size", "11"}, {"fill", detail::board_color("frame")}});
     }
   }
 }
@@ -206,11 +200,17 @@ void BoardSvg::fences(Svg& svg, MdpIndex m) const {
     const double dx = (to.y - from.y) / 2;  // along the border
     const double dy = (to.x - from.x) / 2;
     svg.line(x - dx, y - dy, x + dx, y + dy,
-             {{"stroke", "#3c444d"}, {"stroke-width", "5"}, {"stroke-linecap", "round"}});
+             {{"stroke", detail::board_color("wall")}, {"stroke-width", "5"}, {"stroke-linecap", "round"}});
   }
 }
 
-void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
+// What stands on cells: where something is to be written over them, small and in a corner.
+void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state, bool is_small) const {
+  const auto put = [&](const Cell& cell, const Svg& thing) {
+    constexpr double kCorner = 11.5;
+    const auto at = centre(cell);
+    svg.add(at.x - (is_small ? kCorner : 0.0), at.y - (is_small ? kCorner : 0.0), thing, is_small ? 0.5 : 1.0);
+  };
   for (int y = 1; y <= map_.height(); ++y) {
     for (int x = 1; x <= map_.width(); ++x) {
       const Cell cell{x, y};
@@ -221,26 +221,20 @@ void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
                          {"y", svg_number(at.y - kCell / 2)},
                          {"width", svg_number(kCell)},
                          {"height", svg_number(kCell)},
-                         {"fill", "#3c444d"}});
+                         {"fill", detail::board_color("wall")}});
       }
-      if (!content.destination_of.empty()) destination(svg, at, letters(content.destination_of));
-      if (content.goal) goal(svg, at, letters(map_.legend()[map_.legend_index(cell)].goal_name));
+      if (!content.destination_of.empty()) put(cell, destination(content.destination_of));
+      if (content.goal) put(cell, goal(map_.legend()[map_.legend_index(cell)].goal_name));
     }
   }
-  for (const auto& cell : state.stations) {
-    station(svg, centre(cell), letters(map_.legend()[map_.legend_index(cell)].station));
-  }
+  for (const auto& cell : state.stations) put(cell, station(map_.legend()[map_.legend_index(cell)].station));
   const auto items = map_.items_in(m);
   constexpr std::string_view kDestination = "destination of ";
   for (const bool is_destination : {true, false}) {  // what is at its destination is drawn on top
     for (std::size_t i = 0; i < state.items.size(); ++i) {
       const auto& name = map_.item_names()[items[i]];
       if (state.carried[i] || name.starts_with(kDestination) != is_destination) continue;
-      if (is_destination) {
-        destination(svg, centre(state.items[i]), letters(name.substr(kDestination.size())));
-      } else {
-        disc(svg, centre(state.items[i]), letters(name));
-      }
+      put(state.items[i], is_destination ? destination(name.substr(kDestination.size())) : item(name));
     }
   }
 }
@@ -250,13 +244,14 @@ Svg BoardSvg::board(MdpIndex m, const GridState& state, bool bare) const {
   for (int y = 1; y <= map_.height(); ++y) {
     for (int x = 1; x <= map_.width(); ++x) {
       const auto content = map_.content(m, {x, y});
-      if (!content.terrain.empty()) terrain(svg, centre({x, y}), content.terrain);
+      const auto at = centre({x, y});
+      if (!content.terrain.empty()) svg.add(at.x, at.y, terrain(content.terrain));
     }
   }
   grid(svg);
   fences(svg, m);
-  contents(svg, m, state);
-  if (!bare) robot(svg, centre(state.robot));
+  contents(svg, m, state, bare);
+  if (!bare) svg.add(centre(state.robot).x, centre(state.robot).y, robot());
   return svg;
 }
 
@@ -318,14 +313,17 @@ void BoardSvg::action(Svg& svg, const Cell& cell, const std::string& name) const
                      {"fill", "#ffffff"},
                      {"fill-opacity", "0.85"}});
     svg.text(at.x, at.y + 16.5, name,
-             {{"text-anchor", "middle"}, {"font-size", "10"}, {"font-weight", "bold"}, {"fill", "#0b5cad"}});
+             {{"text-anchor", "middle"},
+              {"font-size", "10"},
+              {"font-weight", "bold"},
+              {"fill", detail::board_color("own")}});
     return;
   }
   svg.add("path",
           {{"d", "M-12 0H8M2 -6L9 0L2 6"},
            {"transform", fmt::format("translate({} {}) rotate({})", svg_number(at.x), svg_number(at.y), move->second)},
            {"fill", "none"},
-           {"stroke", "#0b5cad"},
+           {"stroke", detail::board_color("own")},
            {"stroke-width", "3"},
            {"stroke-linecap", "round"},
            {"stroke-linejoin", "round"}});
@@ -339,58 +337,50 @@ void BoardSvg::number(Svg& svg, const Cell& cell, std::size_t number, double sha
                    {"width", svg_number(2 * kHalf)},
                    {"height", svg_number(2 * kHalf)},
                    {"rx", "4"},
-                   {"fill", "#0b5cad"},
+                   {"fill", detail::board_color("own")},
                    {"fill-opacity", svg_number(0.08 + 0.72 * share)}});
   svg.text(at.x, at.y + 5, std::to_string(number),
            {{"text-anchor", "middle"},
             {"font-size", "14"},
             {"font-weight", "bold"},
-            {"fill", share > 0.55 ? "#ffffff" : kInk}});
+            {"fill", share > 0.55 ? detail::board_color("floor") : detail::board_color("ink")}});
 }
 
 double BoardSvg::legend(Svg& svg, double x, double y, double line_width) const {
   constexpr double kLine = 38.0;
   double column = 0.0;
   double row = 0.0;
-  const auto entry = [&](const std::string& name, const auto& draw) {
+  const auto entry = [&](const std::string& name, const Svg& sign) {
     const double width = 46.0 + svg_text_width(name, 13) + 12.0;
     if (column > 0.0 && column + width > line_width) {
       column = 0.0;
       row += kLine;
     }
-    Svg sign;
-    draw(sign);
     svg.add(x + column + 20.0, y + row + 20.0, sign);
     svg.text(x + column + 46.0, y + row + 24.5, name);
     column += width;
   };
-  constexpr Point middle{0.0, 0.0};
-  entry("robot", [&](Svg& sign) { robot(sign, middle); });
-  bool has_wall = false;
-  std::vector<std::string> known;
-  for (const auto& symbol : map_.legend()) has_wall = has_wall || symbol.content.wall;
-  if (has_wall) {
-    entry("wall", [&](Svg& sign) {
-      sign.add("rect", {{"x", "-14"}, {"y", "-14"}, {"width", "28"}, {"height", "28"}, {"fill", "#3c444d"}});
-    });
+  entry("robot", robot());
+  if (std::ranges::any_of(map_.legend(), [](const LegendEntry& symbol) { return symbol.content.wall; })) {
+    Svg wall;
+    wall.add("rect",
+             {{"x", "-14"}, {"y", "-14"}, {"width", "28"}, {"height", "28"}, {"fill", detail::board_color("wall")}});
+    entry("wall", wall);
   }
-  for (const auto& surface : surfaces_) entry(surface.name, [&](Svg& sign) { terrain(sign, middle, surface.name); });
-  const auto once = [&](const std::string& name, const auto& draw) {
-    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  for (const auto& surface : surfaces_) entry(surface.name, terrain(surface.name));
+  std::vector<std::string> known;
+  const auto once = [&](const std::string& name, const Svg& sign) {
+    if (name.empty() || std::ranges::find(known, name) != known.end()) return;
     known.push_back(name);
-    entry(name, draw);
+    entry(name, sign);
   };
   for (const auto& symbol : map_.legend()) {
-    once(symbol.station, [&](Svg& sign) { station(sign, middle, letters(symbol.station)); });
-    once(symbol.item, [&](Svg& sign) { disc(sign, middle, letters(symbol.item)); });
-    if (!symbol.content.destination_of.empty()) {
-      once("destination of " + symbol.content.destination_of,
-           [&](Svg& sign) { destination(sign, middle, letters(symbol.content.destination_of)); });
-    }
-    if (symbol.content.goal) {
-      once(symbol.goal_name.empty() ? "goal" : symbol.goal_name + " goal",
-           [&](Svg& sign) { goal(sign, middle, letters(symbol.goal_name)); });
-    }
+    once(symbol.station, station(symbol.station));
+    once(symbol.item, item(symbol.item));
+    const auto& delivered = symbol.content.destination_of;
+    if (!delivered.empty()) once("destination of " + delivered, destination(delivered));
+    if (symbol.content.goal)
+      once(symbol.goal_name.empty() ? "goal" : symbol.goal_name + " goal", goal(symbol.goal_name));
   }
   return row + kLine + 6.0;
 }

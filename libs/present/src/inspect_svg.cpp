@@ -20,11 +20,13 @@ namespace {
 
 constexpr double kGap = 28.0;
 constexpr double kCaption = 17.0;  // height of a line
+constexpr double kCaptionSize = 12.5;
+constexpr double kHeadingSize = 16.0;  // bold letters are a tenth wider
 constexpr double kPageWidth = 1200.0;
 
 // Lines of text that fit into a width; at least one.
-std::vector<std::string> lines_of(const std::string& text, double width) {
-  const auto characters = static_cast<std::size_t>(std::max(12.0, width / svg_text_width("n", 12.5)));
+std::vector<std::string> lines_of(const std::string& text, double width, double size) {
+  const auto characters = static_cast<std::size_t>(std::max(12.0, width / svg_text_width("n", size)));
   std::vector<std::string> lines;
   std::string rest = wrapped(text, characters);
   while (true) {
@@ -44,15 +46,17 @@ class Sheet {
         width_{std::max(boards.width(), 200.0)},
         columns_{std::max<std::size_t>(1, static_cast<std::size_t>(kPageWidth / (width_ + kGap)))} {}
 
-  void add(Svg board, const std::string& caption) { panels_.push_back({std::move(board), lines_of(caption, width_)}); }
+  void add(Svg board, const std::string& caption) {
+    panels_.push_back({std::move(board), lines_of(caption, width_, kCaptionSize)});
+  }
 
   [[nodiscard]] std::string file() const {
     Svg svg;
     const auto used = std::min(columns_, panels_.size());
     const double width = std::max(kGap + static_cast<double>(used) * (width_ + kGap), 420.0);
     double y = 26.0;
-    for (const auto& line : lines_of(heading_, width - 2 * kGap)) {
-      svg.text(kGap, y + 8, line, {{"font-size", "16"}, {"font-weight", "bold"}});
+    for (const auto& line : lines_of(heading_, width - 2 * kGap, 1.1 * kHeadingSize)) {
+      svg.text(kGap, y + 8, line, {{"font-size", svg_number(kHeadingSize)}, {"font-weight", "bold"}});
       y += 22.0;
     }
     y += 10.0;
@@ -63,7 +67,7 @@ class Sheet {
         svg.add(x, y, panels_[i].board);
         for (std::size_t line = 0; line < panels_[i].caption.size(); ++line) {
           svg.text(x, y + boards_.height() + kCaption * static_cast<double>(line + 1), panels_[i].caption[line],
-                   {{"font-size", "12.5"}});
+                   {{"font-size", svg_number(kCaptionSize)}});
         }
         most = std::max(most, panels_[i].caption.size());
       }
@@ -97,7 +101,7 @@ void for_each_cell_from_bottom(const GridMap& map, const Visit& visit) {
 }
 
 SvgFile map_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
-  Sheet sheet{boards, fmt::format("{}, {}", title_of(domain), mdp_text(domain, m))};
+  Sheet sheet{boards, fmt::format("{}, {}", title_of(domain), world_text(domain, m))};
   sheet.add(boards.board(m, map.state(m, domain.initial_state(m))), "");
   return {"map.svg", sheet.file()};
 }
@@ -108,7 +112,7 @@ std::optional<SvgFile> policy_picture(const Domain& domain, const GridMap& map, 
   if (!policy) return std::nullopt;
   const auto& choice_in = policy->choice;
   const auto& path = policy->path;
-  Sheet sheet{boards, fmt::format("What the robot does in {} of {}", mdp_text(domain, m), domain.id())};
+  Sheet sheet{boards, fmt::format("What the robot does in {} of {}", world_text(domain, m), domain.id())};
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
     for_each_cell_from_bottom(map, [&](const Cell& cell) {
@@ -136,7 +140,7 @@ SvgFile coverage_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
   const auto& domain = atlas.domain();
   const auto path = atlas.trajectory(atlas.index({m, domain.initial_state(m)}));
   Sheet sheet{boards, fmt::format("How many ways people could expect from where the robot stands, {} of {}",
-                                  mdp_text(domain, m), domain.id())};
+                                  world_text(domain, m), domain.id())};
   const auto largest = std::max<std::size_t>(2, atlas.coverage().max);
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
@@ -164,7 +168,7 @@ SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& b
   const auto start = map.state(m, domain.initial_state(m));
   const auto& robot = atlas.feature_counts(demo);
   Sheet sheet{boards,
-              fmt::format("What people could expect from the start of {} of {}", mdp_text(domain, m), domain.id())};
+              fmt::format("What people could expect from the start of {} of {}", world_text(domain, m), domain.id())};
   const auto add = [&](const Trajectory& path, const std::string& text, bool is_own) {
     auto board = boards.board(m, start);
     board.add(0, 0, boards.path(m, path, is_own ? "#0b5cad" : "#b8480a", !is_own));
@@ -191,7 +195,7 @@ SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
   const auto demo = atlas.index({m, domain.initial_state(m)});
   const auto start = map.state(m, domain.initial_state(m));
   Sheet sheet{boards,
-              fmt::format("What people could expect from the start of {} of {}", mdp_text(domain, m), domain.id())};
+              fmt::format("What people could expect from the start of {} of {}", world_text(domain, m), domain.id())};
   const auto& robot = atlas.feature_counts(demo);
   auto own = boards.board(m, start);
   own.add(0, 0, boards.path(m, atlas.trajectory(demo), "#0b5cad"));

@@ -1,40 +1,19 @@
 #include "kith/present/surfaces.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+
+#include "drawing.hpp"
 
 namespace kith {
 namespace {
 
-// Given out in this order.
-constexpr std::array<std::string_view, 8> kTintNames{"brown", "blue",   "green", "purple",
-                                                     "grey",  "orange", "red",   "yellow"};
-constexpr std::array<std::string_view, 4> kPatternNames{"dots", "lines", "cross", "waves"};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kTintsOfNames{{{"hole", "dark"},
-                                                                                       {"pit", "dark"},
-                                                                                       {"cliff", "dark"},
-                                                                                       {"rubble", "brown"},
-                                                                                       {"mud", "brown"},
-                                                                                       {"fence", "brown"},
-                                                                                       {"path", "yellow"},
-                                                                                       {"sand", "yellow"},
-                                                                                       {"grass", "green"},
-                                                                                       {"bush", "green"},
-                                                                                       {"water", "blue"},
-                                                                                       {"ice", "blue"},
-                                                                                       {"smoke", "grey"},
-                                                                                       {"fire", "red"},
-                                                                                       {"lava", "red"},
-                                                                                       {"heat", "orange"}}};
-
-// The tint that a name asks for; empty: none.
+// The tint that a terrain's name asks for; empty: none.
 std::string_view tint_named(std::string_view name) {
-  const auto own = std::find(kTintNames.begin(), kTintNames.end(), name);
-  if (own != kTintNames.end()) return *own;
-  const auto named =
-      std::find_if(kTintsOfNames.begin(), kTintsOfNames.end(), [&](const auto& one) { return one.first == name; });
-  return named == kTintsOfNames.end() ? std::string_view{} : named->second;
+  for (const auto& tint : detail::tints()) {
+    const bool is_own = tint.name == name && !tint.only_named;
+    if (is_own || std::ranges::find(tint.terrains, name) != tint.terrains.end()) return tint.name;
+  }
+  return {};
 }
 
 bool any_has(const std::vector<Surface>& surfaces, std::string_view tint, std::string_view pattern = {}) {
@@ -46,6 +25,11 @@ bool any_has(const std::vector<Surface>& surfaces, std::string_view tint, std::s
 }  // namespace
 
 std::vector<Surface> surfaces_of(const GridMap& map) {
+  std::vector<std::string_view> given, patterns;  // in this order
+  for (const auto& tint : detail::tints()) {
+    if (!tint.only_named) given.push_back(tint.name);
+  }
+  for (const auto& texture : detail::textures()) patterns.push_back(texture.name);
   std::vector<Surface> surfaces;
   for (const auto& entry : map.legend()) {
     const auto& name = entry.content.terrain;
@@ -55,13 +39,12 @@ std::vector<Surface> surfaces_of(const GridMap& map) {
     const auto number = surfaces.size();
     auto tint = tint_named(name);
     if (tint.empty() || any_has(surfaces, tint)) {
-      const auto unused = std::find_if(kTintNames.begin(), kTintNames.end(),
-                                       [&](std::string_view one) { return !any_has(surfaces, one); });
-      tint = unused == kTintNames.end() ? kTintNames[number % kTintNames.size()] : *unused;
+      const auto unused = std::ranges::find_if(given, [&](std::string_view one) { return !any_has(surfaces, one); });
+      tint = unused == given.end() ? given[number % given.size()] : *unused;
     }
-    auto pattern = kPatternNames[number % kPatternNames.size()];
-    for (std::size_t i = 1; i < kPatternNames.size() && any_has(surfaces, tint, pattern); ++i) {
-      pattern = kPatternNames[(number + i) % kPatternNames.size()];
+    auto pattern = patterns[number % patterns.size()];
+    for (std::size_t i = 1; i < patterns.size() && any_has(surfaces, tint, pattern); ++i) {
+      pattern = patterns[(number + i) % patterns.size()];
     }
     surfaces.push_back({name, tint, pattern});
   }

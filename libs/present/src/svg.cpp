@@ -53,8 +53,9 @@ void Svg::line(double x1, double y1, double x2, double y2, SvgAttributes attribu
                        svg_number(x2), svg_number(y2), attributes_text(attributes));
 }
 
-void Svg::add(double x, double y, const Svg& other) {
-  body_ += fmt::format("<g transform=\"translate({} {})\">\n{}</g>\n", svg_number(x), svg_number(y), other.body_);
+void Svg::add(double x, double y, const Svg& other, double scale) {
+  body_ += fmt::format("<g transform=\"translate({} {}){}\">\n{}</g>\n", svg_number(x), svg_number(y),
+                       scale == 1.0 ? "" : " scale(" + svg_number(scale) + ")", other.body_);
 }
 
 std::string Svg::file(double width, double height, std::string_view title) const {

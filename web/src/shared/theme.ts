@@ -1,12 +1,26 @@
 // All colours, once, for light and dark. The page and its figures use them as CSS variables, so a
 // change of theme or printing recolours everything at once; what is saved gets the light values.
+import { colors, tints } from './board/drawing.json';
 import { button } from './dom';
 
 type Scheme = Record<string, string>;
 
+// Of boards, which pictures of the program have, too: the light one of each pair, or the dark one.
+function boardScheme(which: 0 | 1): Scheme {
+  const of = (pair: string[]): string => pair[which] ?? '';
+  return Object.fromEntries([
+    ...Object.entries(colors).map(([name, pair]) => [`board-${name}`, of(pair)]),
+    ...tints.flatMap(({ name, ground, mark }) => [
+      [`tint-${name}`, of(ground)],
+      [`mark-${name}`, of(mark)],
+    ]),
+  ]) as Scheme;
+}
+
 // Strategies have t0 to t7. The first five, those of the strategies that kith compares, differ in lightness, too: they
 // stay apart in grey and for all kinds of colour vision, and contrast with the ground by 3 : 1 (tests/report_test.mjs).
 const kLight: Scheme = {
+  ...boardScheme(0),
   ground: '#ffffff',
   panel: '#f6f7f9',
   text: '#1c2127',
@@ -42,39 +56,9 @@ const kLight: Scheme = {
   common: '#12643e',
   joint: '#c67d9f',
   sphere: '#fafbfc',
-  'board-floor': '#ffffff',
-  'board-grid': '#d5d9de',
-  'board-frame': '#57606a',
-  'board-wall': '#3c444d',
-  'board-ink': '#1c2127',
-  'board-station': '#ffe08a',
-  'board-thing': '#cfe6d8',
-  'board-goal': '#b9e2c6',
-  'board-done': '#00714a',
-  'board-robot': '#1c2127',
-  'board-own': '#0b5cad',
-  'board-other': '#b8480a',
-  'board-decisive': '#e69f00',
-  'tint-brown': '#e9dcc9',
-  'mark-brown': '#8f6f45',
-  'tint-blue': '#d3e4f7',
-  'mark-blue': '#5b8db8',
-  'tint-green': '#d9ecd9',
-  'mark-green': '#5d9a64',
-  'tint-purple': '#e6dcf3',
-  'mark-purple': '#8d6fb5',
-  'tint-grey': '#e1e4e8',
-  'mark-grey': '#87909b',
-  'tint-orange': '#fbdcbf',
-  'mark-orange': '#c9762b',
-  'tint-red': '#f7d4d0',
-  'mark-red': '#c25a50',
-  'tint-yellow': '#f8edc0',
-  'mark-yellow': '#b39a3a',
-  'tint-dark': '#4a525c',
-  'mark-dark': '#2b3138',
 };
 const kDark: Scheme = {
+  ...boardScheme(1),
   ground: '#14171b',
   panel: '#1c2127',
   text: '#e8eaed',
@@ -110,37 +94,6 @@ const kDark: Scheme = {
   common: '#63ed96',
   joint: '#9f5088',
   sphere: '#191d22',
-  'board-floor': '#1f252c',
-  'board-grid': '#343c46',
-  'board-frame': '#8b949e',
-  'board-wall': '#7d8691',
-  'board-ink': '#f1f3f5',
-  'board-station': '#6d5710',
-  'board-thing': '#27523d',
-  'board-goal': '#27563a',
-  'board-done': '#2fc18f',
-  'board-robot': '#f1f3f5',
-  'board-own': '#7cb8f2',
-  'board-other': '#f7a072',
-  'board-decisive': '#f0b429',
-  'tint-brown': '#3f3426',
-  'mark-brown': '#97784f',
-  'tint-blue': '#1f3a57',
-  'mark-blue': '#5f8fbd',
-  'tint-green': '#24402a',
-  'mark-green': '#5d9a64',
-  'tint-purple': '#382c4d',
-  'mark-purple': '#8d72b8',
-  'tint-grey': '#3a4149',
-  'mark-grey': '#838d98',
-  'tint-orange': '#55361b',
-  'mark-orange': '#c47a38',
-  'tint-red': '#522a28',
-  'mark-red': '#c0625a',
-  'tint-yellow': '#48401d',
-  'mark-yellow': '#a8923f',
-  'tint-dark': '#0a0c0f',
-  'mark-dark': '#3a424c',
 };
 
 export const color = (name: string): string => `var(--${name})`;
@@ -180,17 +133,18 @@ const prefersDark = (): boolean => window.matchMedia('(prefers-color-scheme: dar
 export function themeToggle(): HTMLButtonElement {
   const root = document.documentElement;
   const isDark = (): boolean => (root.dataset.theme ?? (prefersDark() ? 'dark' : 'light')) === 'dark';
+  const say = (): void => {
+    toggle.textContent = isDark() ? 'Light theme' : 'Dark theme';
+  };
   const toggle = button(
-    'Dark theme',
+    '',
     () => {
       root.dataset.theme = isDark() ? 'light' : 'dark';
-      toggle.setAttribute('aria-pressed', String(isDark()));
+      say();
     },
     { class: 'theme-toggle' },
   );
-  toggle.setAttribute('aria-pressed', String(isDark()));
-  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
-    toggle.setAttribute('aria-pressed', String(isDark()));
-  });
+  say();
+  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', say);
   return toggle;
 }

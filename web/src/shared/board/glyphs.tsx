@@ -1,5 +1,6 @@
 // Drawings of what is on a cell. All are drawn around (0,0), the middle of the cell.
 import type { JSX } from 'preact';
+import { textures } from './drawing.json';
 import { kUnit, type Point } from './geometry';
 import { iconOf } from './icons';
 import type { Legend } from './legend';
@@ -12,31 +13,21 @@ export const fillOf = ({ tint, pattern }: Surface, isOver = false): string => `u
 
 // Textures of terrains, once per page.
 export function Patterns({ surfaces }: { surfaces: Surface[] }): JSX.Element {
-  const mark = (pattern: string): JSX.Element => {
-    if (pattern === 'dots') {
-      return (
-        <g>
-          <circle cx={3} cy={3} r={1.4} />
-          <circle cx={8} cy={8} r={1.4} />
-        </g>
-      );
-    }
-    if (pattern === 'lines') return <path d="M-2 12 12 -2M-2 2 2 -2M8 12 12 8" />;
-    if (pattern === 'cross') return <path d="M2 5h6M5 2v6" />;
-    return <path d="M0 3q2.5 -3 5 0t5 0M0 8q2.5 -3 5 0t5 0" />;
+  const marksOf = (pattern: string): { d: string; isFilled: boolean } => {
+    const texture = textures.find(({ name }) => name === pattern);
+    const marks = (texture?.at ?? []).map(([x, y]) => `M${x} ${y}${texture?.path}`);
+    return { d: marks.join('') + (texture?.corners ?? ''), isFilled: texture?.filled ?? false };
   };
   return (
     <svg class="patterns" width="0" height="0" aria-hidden="true" focusable="false">
       <defs>
         {surfaces.flatMap(({ tint, pattern }) =>
           [false, true].map((isOver) => {
-            const isFilled = pattern === 'dots';
+            const { d, isFilled } = marksOf(pattern);
             return (
               <pattern id={`surface-${tint}-${pattern}${isOver ? '-over' : ''}`} width={10} height={10} patternUnits="userSpaceOnUse">
                 {!isOver && <rect width={10} height={10} fill={`var(--tint-${tint})`} />}
-                <g stroke={`var(--mark-${tint})`} fill={isFilled ? `var(--mark-${tint})` : 'none'} stroke-width={isFilled ? 0 : 1}>
-                  {mark(pattern)}
-                </g>
+                <path d={d} stroke={isFilled ? 'none' : `var(--mark-${tint})`} fill={isFilled ? `var(--mark-${tint})` : 'none'} />
               </pattern>
             );
           }),

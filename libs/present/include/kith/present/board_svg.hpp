@@ -19,7 +19,7 @@ class BoardSvg {
   [[nodiscard]] double width() const;   ///< With the numbers of the rows.
   [[nodiscard]] double height() const;  ///< With the numbers of the columns.
 
-  /// The map of an MDP as it is in a state; the robot is drawn unless `bare`.
+  /// The map of an MDP as it is in a state. `bare`, to be written on: without the robot, things small and in a corner.
   [[nodiscard]] Svg board(MdpIndex m, const GridState& state, bool bare = false) const;
   /// A path, to be added on top of a board. Where it goes round for ever, an arrow that bends back marks where.
   [[nodiscard]] Svg path(MdpIndex m, const Trajectory& path, const std::string& color, bool dashed = false) const;
@@ -36,14 +36,15 @@ class BoardSvg {
     double x = 0.0, y = 0.0;
   };
   [[nodiscard]] Point centre(const Cell& cell) const;
-  void terrain(Svg& svg, const Point& at, const std::string& name) const;
-  void disc(Svg& svg, const Point& at, const std::string& sign) const;
-  void station(Svg& svg, const Point& at, const std::string& sign) const;
-  void destination(Svg& svg, const Point& at, const std::string& sign) const;
-  void goal(Svg& svg, const Point& at, const std::string& sign) const;
-  void robot(Svg& svg, const Point& at) const;
+  // Around (0, 0).
+  [[nodiscard]] Svg terrain(const std::string& name) const;
+  [[nodiscard]] Svg item(const std::string& name) const;
+  [[nodiscard]] Svg station(const std::string& name) const;
+  [[nodiscard]] Svg destination(const std::string& name) const;
+  [[nodiscard]] Svg goal(const std::string& name) const;
+  [[nodiscard]] Svg robot() const;
   void fences(Svg& svg, MdpIndex m) const;
-  void contents(Svg& svg, MdpIndex m, const GridState& state) const;
+  void contents(Svg& svg, MdpIndex m, const GridState& state, bool is_small) const;
   void grid(Svg& svg) const;
   [[nodiscard]] std::string letters(const std::string& name) const;
 

@@ -24,8 +24,8 @@ class Svg {
   /// Adds a line of text; attributes besides the place as in SVG.
   void text(double x, double y, std::string_view words, SvgAttributes attributes = {});
   void line(double x1, double y1, double x2, double y2, SvgAttributes attributes);
-  /// Adds another drawing with its origin at (x, y).
-  void add(double x, double y, const Svg& other);
+  /// Adds another drawing with its origin at (x, y), larger or smaller.
+  void add(double x, double y, const Svg& other, double scale = 1.0);
 
   /// The whole file.
   /// @param title  what it shows, for people who do not see it and for tooltips.
