@@ -1,5 +1,6 @@
 // Writes paths that kith has judged, for a page's judge to agree with: one line of JSON for each world of each built-in
-// domain, with the robot's own path from every start, and random ones.
+// domain, with the robot's own path from every start, and random ones; where a path is worth what is to be expected,
+// also with every first move from every start.
 //
 //   kith_judged_paths [DOMAIN...]
 #include <cstdio>
@@ -41,7 +42,10 @@ Actions random_path(const Atlas& atlas, DemoIndex demo, RandomStream& random) {
 
 class Lines {
  public:
-  explicit Lines(const Atlas& atlas) : atlas_{atlas}, worlds_(atlas.domain().num_mdps(), Json::array()) {}
+  explicit Lines(const Atlas& atlas)
+      : atlas_{atlas},
+        worlds_(atlas.domain().num_mdps(), Json::array()),
+        moves_(atlas.domain().num_mdps(), Json::array()) {}
 
   void add(DemoIndex demo, const Actions& actions, bool for_ever) {
     const auto judged = judged_path(atlas_, demo, actions, for_ever);
@@ -59,20 +63,35 @@ class Lines {
     worlds_[atlas_.id(demo).mdp.value()].push_back(std::move(one));
   }
 
+  // The robot goes on as ever behind the move.
+  void add_moves(DemoIndex demo) {
+    const auto [world, start] = atlas_.id(demo);
+    const auto& robot = atlas_.feature_counts(demo);
+    const auto choices = atlas_.domain().mdp(world).choices(start);
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+      moves_[world.value()].push_back(
+          {{"start", start.value()},
+           {"robot", std::vector<std::int64_t>(robot.begin(), robot.end())},
+           {"action", choices[c].action.value()},
+           {"right", judge_path(atlas_.domain(), robot, atlas_.deviation_counts(demo, c)).is_right}});
+    }
+  }
+
   void print() const {
     for (std::size_t world = 0; world < worlds_.size(); ++world) {
       if (worlds_[world].empty()) continue;
       std::cout << Json{{"domain", atlas_.domain().id()},
                         {"judge", judge_json(atlas_.domain())},
                         {"table", judged_table_json(atlas_, MdpIndex{world})},
-                        {"paths", worlds_[world]}}
+                        {"paths", worlds_[world]},
+                        {"moves", moves_[world]}}
                 << '\n';
     }
   }
 
  private:
   const Atlas& atlas_;
-  std::vector<Json> worlds_;
+  std::vector<Json> worlds_, moves_;
 };
 
 void print_paths(const std::string& name) {
@@ -80,6 +99,7 @@ void print_paths(const std::string& name) {
   Lines lines{atlas};
   RandomStream random{38};
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    if (!atlas.domain().is_exact()) lines.add_moves(demo);
     if (!atlas.is_candidate(demo)) continue;
     const auto path = answerable_path(atlas, demo);
     if (!path) continue;

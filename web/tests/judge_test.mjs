@@ -1,5 +1,5 @@
 // The lesson page's judge against kith's: on the robot's own path from every start of all built-in domains, and on
-// random paths.
+// random paths; and on first moves.
 //
 //   node tests/judge_test.mjs --paths PROGRAM [--modules DIR]
 import assert from 'node:assert/strict';
@@ -24,11 +24,12 @@ it('a page judges answers as kith does', async () => {
     format: 'esm',
     platform: 'neutral',
   });
-  const { judgePath } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString('base64')}`);
+  const { judgeMove, judgePath } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString('base64')}`);
   const program = spawn(resolve(values.paths), { stdio: ['ignore', 'pipe', 'inherit'] });
   const seen = new Map();
+  const firstMoves = { right: 0, wrong: 0 };
   for await (const line of createInterface({ input: program.stdout })) {
-    const { domain, judge, table, paths } = JSON.parse(line);
+    const { domain, judge, table, paths, moves } = JSON.parse(line);
     const sum = seen.get(domain) ?? { right: 0, wrong: 0, short: 0 };
     for (const { start, robot, actions, repeats_from, finished, right, counts } of paths) {
       const found = judgePath(judge, table, robot, start, actions, repeats_from);
@@ -38,8 +39,13 @@ it('a page judges answers as kith does', async () => {
       if (judge.exact) assert.deepEqual(found.counts, counts, what);
       sum[right ? 'right' : finished ? 'wrong' : 'short'] += 1;
     }
+    for (const { start, robot, action, right } of moves) {
+      assert.equal(judgeMove(judge, table, robot, start, action).isRight, right, `${domain}: action ${action} in state ${start}`);
+      firstMoves[right ? 'right' : 'wrong'] += 1;
+    }
     seen.set(domain, sum);
   }
+  assert.ok(firstMoves.right > 50 && firstMoves.wrong > 50, JSON.stringify(firstMoves));
   assert.ok(seen.size >= 9, `domains: ${[...seen.keys()]}`);
   const all = [...seen.values()].reduce((n, { right, wrong, short }) => n + right + wrong + short, 0);
   assert.ok(all >= 20_000, `${all} paths`);

@@ -74,6 +74,18 @@ std::vector<PolicyRun> several_runs(const Atlas& atlas, DemoIndex start, std::si
   return runs;
 }
 
+std::vector<PolicyRun> typical_runs(std::vector<PolicyRun> runs) {
+  std::ranges::stable_sort(runs, {}, [](const PolicyRun& run) { return run.path.actions.size(); });
+  std::vector<std::size_t> chosen;
+  for (const std::size_t tenths : {5u, 3u, 7u, 1u, 9u}) {
+    const auto i = tenths * runs.size() / 10;
+    if (i < runs.size() && std::ranges::find(chosen, i) == chosen.end()) chosen.push_back(i);
+  }
+  std::vector<PolicyRun> typical;
+  for (const auto i : chosen) typical.push_back(std::move(runs[i]));
+  return typical;
+}
+
 std::string runs_in_words(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs) {
   const auto all = counted(runs.size(), "run");
   std::vector<std::string> told;

@@ -45,6 +45,22 @@ TEST(Runs, AreLeftOutWhereNothingIsLeftToChance) {
   EXPECT_TRUE(several_runs(atlas_of("item-delivery"), DemoIndex{0}, 10, random).empty());
 }
 
+TEST(Runs, AreChosenByTheirLength) {
+  std::vector<PolicyRun> runs;
+  for (const std::size_t length : {9u, 2u, 7u, 4u, 5u, 6u, 3u, 8u, 1u, 10u}) {
+    runs.push_back({{std::vector<StateIndex>(length + 1), std::vector<ActionIndex>(length)}, {}, true});
+  }
+  const auto lengths = [](const std::vector<PolicyRun>& all) {
+    std::vector<std::size_t> list;
+    for (const auto& run : all) list.push_back(run.path.actions.size());
+    return list;
+  };
+  EXPECT_EQ(lengths(typical_runs(runs)), (std::vector<std::size_t>{6, 4, 8, 2, 10}));
+  runs.resize(2);
+  EXPECT_EQ(lengths(typical_runs(runs)), (std::vector<std::size_t>{9, 2}));
+  EXPECT_TRUE(typical_runs({}).empty());
+}
+
 // Expected shares within four standard errors.
 TEST(Runs, FallAsOftenAsTheModelSays) {
   const auto& atlas = atlas_of(testing::slippery_lake("steps", "{ step = -1 }", "1.0"));

@@ -59,6 +59,30 @@ void add_path(Json& entry, const std::string& key, const Domain& domain, MdpInde
   }
 }
 
+// In which part of the cases a choice counts something of a feature.
+double chance_of(const Mdp& mdp, const Choice& choice, std::size_t feature) {
+  double chance = 0.0;
+  for (const auto& outcome : mdp.outcomes(choice)) {
+    if (mdp.features(outcome)[feature] != 0.0) chance += outcome.probability;
+  }
+  return chance;
+}
+
+// Costs that follow from the robot's action at a place less often than from another one.
+Json spared_by(const Domain& domain, MdpIndex world, StateIndex s, ActionIndex robot, ActionIndex own) {
+  const auto& mdp = domain.mdp(world);
+  const auto& choices = mdp.choices(s);
+  const auto& robots = *std::ranges::find(choices, robot, &Choice::action);
+  const auto& owns = *std::ranges::find(choices, own, &Choice::action);
+  Json spared = Json::array();
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    constexpr double kRounding = 1e-9;
+    const bool is_rarer = chance_of(mdp, robots, k) + kRounding < chance_of(mdp, owns, k);
+    if (domain.weights().integer[k] < 0 && is_rarer) spared.push_back(k);
+  }
+  return spared;
+}
+
 // What everybody can know of the features of the lesson's component who has seen all demonstrations and all feedback.
 std::vector<Bracket> shown_so_far(const RoomParts& room) {
   const auto& atlas = *room.study.atlas;
@@ -75,7 +99,11 @@ std::vector<Bracket> shown_so_far(const RoomParts& room) {
 std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVector& robot_counts,
                           const IntegerVector& own_counts) {
   if (robot_counts == own_counts || sign_of_dot(domain.weights().integer, robot_counts - own_counts) <= 0) return {};
-  if (!is_exact(domain.mdp(world))) return sentence(on_average_in_words(domain, robot_counts - own_counts));
+  if (!is_exact(domain.mdp(world))) {
+    const auto difference = robot_counts - own_counts;
+    const auto risk = risk_in_words(domain, world, difference);
+    return sentence((risk.empty() ? "" : risk + ": ") + on_average_in_words(domain, difference));
+  }
   const auto robot = whole_counts(domain, robot_counts);
   const auto mine = whole_counts(domain, own_counts);
   std::vector<Excess> costs, lost;  // what the participant's path has more of, and less of
@@ -121,6 +149,13 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
       auto mine = judged_path(atlas, test.demo, path->actions, path->for_ever).path;
       if (const auto differs_at = first_difference(mine, robot)) {
         entry["differs_at"] = *differs_at;
+        const bool is_fork = *differs_at < mine.actions.size() && *differs_at < robot.actions.size();
+        if (!right && is_fork && !domain.mdp(world).is_deterministic()) {
+          entry["chance"] = {{"world", world_key(room.study, world)},
+                             {"state", world_state(room.study, world, atlas.id(test.demo).start).value_or(0)},
+                             {"spared", spared_by(domain, world, robot.states[*differs_at], robot.actions[*differs_at],
+                                                  mine.actions[*differs_at])}};
+        }
         // Both may go round in a cycle for a while before they part.
         mine = written_out(std::move(mine), *differs_at + 1);
         robot = written_out(std::move(robot), *differs_at + 1);

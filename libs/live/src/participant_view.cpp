@@ -315,7 +315,7 @@ Json robot_path(const LiveStudy& study, DemoIndex demo) {
 }
 
 Json robot_runs(const LiveStudy& study, DemoIndex demo) {
-  constexpr std::size_t kRuns = 5;
+  constexpr std::size_t kRuns = 10;
   const auto world = study.atlas->id(demo).mdp;
   if (study.atlas->domain().mdp(world).is_deterministic()) return nullptr;
   auto random = RandomStream{study.spec.seed}.split("runs").split(demo.value());

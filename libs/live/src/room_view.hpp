@@ -15,8 +15,8 @@ namespace kith {
 [[nodiscard]] Json live_board(const LiveStudy& study, DemoIndex demo);
 /// The robot's path from there: path_json().
 [[nodiscard]] Json robot_path(const LiveStudy& study, DemoIndex demo);
-/// Five runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where
-/// nothing is left to chance.
+/// Runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where nothing is
+/// left to chance.
 [[nodiscard]] Json robot_runs(const LiveStudy& study, DemoIndex demo);
 
 /// ParticipantView.

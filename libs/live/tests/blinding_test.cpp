@@ -29,8 +29,8 @@ const std::set<std::string> kForbidden{"features", "weight",    "weights",  "bel
                                        "bec",      "prior",     "curves",   "p_bec",     "regret",       "answers",
                                        "estimate", "component", "strategy", "type",      "kind_of_seat", "presence"};
 // Those that belong to feedback only.
-const std::set<std::string> kAfterwards{"right",      "robot_path", "why",     "cost",         "mine",
-                                        "differs_at", "all_right",  "learned", "others_unsure"};
+const std::set<std::string> kAfterwards{"right",      "robot_path", "why",     "cost",          "mine",
+                                        "differs_at", "all_right",  "learned", "others_unsure", "spared"};
 
 void expect_blind(const Json& view) {
   std::set<std::string> keys;

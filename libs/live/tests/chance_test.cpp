@@ -25,7 +25,7 @@ TEST(Chance, ShowsRunsOfTheRobotWhereItHasAPart) {
     ASSERT_EQ(play.seat(1, "watched", {{"demo", watch["index"]}}), "");
     if (!watch.contains("runs")) continue;
     ++with_chance;
-    EXPECT_NE(watch["runs"]["text"].get<std::string>().find("5 runs"), std::string::npos);
+    EXPECT_NE(watch["runs"]["text"].get<std::string>().find("10 runs"), std::string::npos);
     ASSERT_EQ(watch["runs"]["runs"].size(), 5u);
     for (const auto& run : watch["runs"]["runs"]) {
       EXPECT_EQ(run["frames"][0]["robot"], watch["board"]["start"]["robot"]);
@@ -35,6 +35,29 @@ TEST(Chance, ShowsRunsOfTheRobotWhereItHasAPart) {
     EXPECT_EQ(page(play, 2)["watch"]["runs"], watch["runs"]) << "the same for everybody";
   }
   EXPECT_GT(with_chance, 0u);
+}
+
+// Pages draw what can follow from both moves at the fork; what the robot's spares is told with the answer only.
+TEST(Chance, IsToldInFeedbackWithWhatTheRobotsMoveSpares) {
+  Play play{live_study({}, "domains/gallery/frozen_lake.toml")};
+  play.start(3);
+  std::size_t told = 0, spared = 0;
+  for (int i = 0; i < 400 && play.room().stage() == RoomStage::kRunning; ++i) {
+    play.act(1 + static_cast<std::size_t>(i % 3), i % 2 == 0);
+    const auto view = page(play, 1);
+    if (view["stage"] != "feedback") continue;
+    for (const auto& test : view["feedback"]["tests"]) {
+      if (!test.contains("chance")) continue;
+      EXPECT_FALSE(test["right"].get<bool>());
+      const auto world = test["board"]["world"].get<std::size_t>();
+      EXPECT_EQ(test["chance"]["world"], world_key(play.study(), MdpIndex{world}));
+      EXPECT_TRUE(world_json(play.study(), MdpIndex{world}).contains("outcomes"));
+      ++told;
+      spared += test["chance"]["spared"].size();
+    }
+  }
+  EXPECT_GT(told, 0u);
+  EXPECT_GT(spared, 0u);
 }
 
 // The same way in two worlds; in the second the robot may slip back.

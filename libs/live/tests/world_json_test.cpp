@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "kith/core/error.hpp"
 #include "kith/random/distributions.hpp"
 #include "live_play.hpp"
@@ -156,6 +158,17 @@ TEST(WorldTable, SaysWhereActionsMoveTheRobot) {
     if (action["name"] == "pickup") {
       EXPECT_EQ(action["dx"], nullptr);
     }
+  }
+}
+
+// Very slippery ice: every move ends in three directions alike, and yet the buttons are four.
+TEST(WorldJson, TakesDirectionsByTheirNamesWhereChanceDoesNotTell) {
+  const auto study = live_study({}, "domains/gallery/frozen_lake.toml");
+  for (MdpIndex world{0}; world.value() < study->atlas->domain().num_mdps(); ++world) {
+    std::set<std::pair<int, int>> shifts;
+    const auto json = world_json(*study, world);
+    for (const auto& action : json["actions"]) shifts.emplace(action["dx"].get<int>(), action["dy"].get<int>());
+    EXPECT_EQ(shifts, (std::set<std::pair<int, int>>{{0, -1}, {0, 1}, {-1, 0}, {1, 0}})) << world.value();
   }
 }
 

@@ -178,7 +178,7 @@ Json brackets_json(const Domain& domain, std::span<const Bracket> brackets) {
 Json runs_json(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs) {
   if (runs.empty()) return nullptr;
   Json all = Json::array();
-  for (const auto& run : runs) {
+  for (const auto& run : typical_runs(runs)) {
     all.push_back({{"frames", frames_json(domain, world, run.path)}, {"ended", run.has_ended}});
   }
   return {{"text", runs_in_words(domain, world, runs)}, {"runs", std::move(all)}};

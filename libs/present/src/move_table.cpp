@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,17 @@ std::string utf8(char32_t c) {
   KITH_ASSERT(c < 0xd800);  // a world has no more states than that, and few kinds of steps
   return {static_cast<char>(0xe0 | (c >> 12)), static_cast<char>(0x80 | ((c >> 6) & 0x3f)),
           static_cast<char>(0x80 | (c & 0x3f))};
+}
+
+// Columns to the right and rows down.
+using Shift = std::pair<int, int>;
+
+std::optional<Shift> direction_called(std::string_view name) {
+  if (name == "up") return Shift{0, -1};
+  if (name == "down") return Shift{0, 1};
+  if (name == "left") return Shift{-1, 0};
+  if (name == "right") return Shift{1, 0};
+  return std::nullopt;
 }
 
 class MoveTable {
@@ -83,15 +96,19 @@ class MoveTable {
   // Column and row from the top left, from 1.
   [[nodiscard]] Json position(const Cell& cell) const { return Json::array({cell.x, map_->height() + 1 - cell.y}); }
 
-  // Where an action moves the robot most often, if it moves it at all.
+  // Where an action moves the robot most often, if it moves it at all. On ice all directions may be as likely: then it
+  // is the name that says which one is meant.
   [[nodiscard]] Json actions() const {
-    std::vector<std::map<std::pair<int, int>, std::size_t>> shifts(mdp_.num_actions());
+    std::vector<std::map<Shift, std::size_t>> shifts(mdp_.num_actions());
     for (StateIndex s{0}; map_ && s.value() < mdp_.num_states(); ++s) {
       const auto from = map_->state(world_, s);
       for (const auto& choice : mdp_.choices(s)) {
-        const auto to = map_->state(world_, likeliest_outcome(mdp_, s, choice).next);
-        if (to.exited) continue;
-        ++shifts[choice.action.value()][{to.robot.x - from.robot.x, from.robot.y - to.robot.y}];
+        const auto& usual = likeliest_outcome(mdp_, s, choice);
+        for (const auto& outcome : mdp_.outcomes(choice)) {
+          const auto to = map_->state(world_, outcome.next);
+          if (to.exited || outcome.probability < usual.probability) continue;
+          ++shifts[choice.action.value()][{to.robot.x - from.robot.x, from.robot.y - to.robot.y}];
+        }
       }
     }
     Json list = Json::array();
@@ -102,7 +119,11 @@ class MoveTable {
       Json action{{"name", name}, {"label", label}, {"dx", nullptr}, {"dy", nullptr}};
       const auto usual = std::max_element(shifts[a].begin(), shifts[a].end(),
                                           [](const auto& x, const auto& y) { return x.second < y.second; });
-      if (usual != shifts[a].end() && usual->first != std::pair{0, 0}) {
+      const auto meant = direction_called(name);
+      if (meant && shifts[a].contains(*meant)) {
+        action["dx"] = meant->first;
+        action["dy"] = meant->second;
+      } else if (usual != shifts[a].end() && usual->first != Shift{0, 0}) {
         action["dx"] = usual->first.first;
         action["dy"] = usual->first.second;
       }
@@ -158,11 +179,9 @@ class MoveTable {
   Json kinds_ = Json::array();
 };
 
-// Of a world in which a path is worth what is to be expected: all outcomes, what the robot does, and what it counts
-// from every state on.
-Json expectations_json(const Atlas& atlas, MdpIndex world) {
-  const auto& mdp = atlas.domain().mdp(world);
-  Json outcomes = Json::array(), robot = Json::array(), ahead = Json::array();
+// Everything that can follow, of every state that does not end and every action.
+Json outcomes_json(const Mdp& mdp) {
+  Json outcomes = Json::array();
   for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
     Json row = Json::array();
     for (std::size_t a = 0; a < mdp.num_actions(); ++a) row.push_back(nullptr);
@@ -173,13 +192,23 @@ Json expectations_json(const Atlas& atlas, MdpIndex world) {
       }
       row[choice.action.value()] = std::move(all);
     }
-    const auto demo = atlas.index({world, s});
     outcomes.push_back(std::move(row));
+  }
+  return outcomes;
+}
+
+// Of a world in which a path is worth what is to be expected: what the robot does, and what it counts from every state
+// on.
+Json expectations_json(const Atlas& atlas, MdpIndex world) {
+  const auto& mdp = atlas.domain().mdp(world);
+  Json robot = Json::array(), ahead = Json::array();
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    const auto demo = atlas.index({world, s});
     robot.push_back(atlas.action(demo).value());
     const auto& counts = atlas.feature_counts(demo);
     ahead.push_back(std::vector<std::int64_t>(counts.begin(), counts.end()));
   }
-  return {{"outcomes", outcomes}, {"robot", robot}, {"ahead", ahead}};
+  return {{"outcomes", outcomes_json(mdp)}, {"robot", robot}, {"ahead", ahead}};
 }
 
 }  // namespace
@@ -209,7 +238,12 @@ std::size_t max_answer_actions(const Domain& domain) {
   return std::min(kMost, domain.max_steps());
 }
 
-Json move_table_json(const Domain& domain, MdpIndex world) { return MoveTable{domain, world}.json(); }
+Json move_table_json(const Domain& domain, MdpIndex world) {
+  auto table = MoveTable{domain, world}.json();
+  const auto& mdp = domain.mdp(world);
+  if (!mdp.is_deterministic()) table["outcomes"] = outcomes_json(mdp);
+  return table;
+}
 
 Json judged_table_json(const Atlas& atlas, MdpIndex world) {
   auto table = move_table_json(atlas.domain(), world);

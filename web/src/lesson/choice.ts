@@ -1,7 +1,7 @@
 // Why the robot does not do what somebody predicted, in the words of the domain: "it would rather take 2 more steps than
 // cross rubble".
 import { listed } from '../shared/texts';
-import type { Domain } from './document';
+import type { Domain, Lesson } from './document';
 
 type Feature = Domain['features'][number];
 
@@ -27,11 +27,11 @@ const nouns = (all: Surplus[]): string => listed(all.map(({ feature, n, more }) 
 const verbs = (all: Surplus[]): string => listed(all.map(({ feature, n, more }) => said(feature.do, feature.do_many, n, more)));
 
 // Of two paths that count differently, the robot's being the better one. Empty where expectations decide.
-export function choiceText(domain: Domain, robot: number[], mine: number[]): string {
+export function choiceText({ domain, judge }: Lesson, robot: number[], mine: number[]): string {
   const taken: { costs: Surplus[]; gains: Surplus[] } = { costs: [], gains: [] };
   const spared: { costs: Surplus[]; gains: Surplus[] } = { costs: [], gains: [] };
   domain.features.forEach((feature, k) => {
-    const [ours, theirs] = [robot[k] ?? 0, mine[k] ?? 0];
+    const [ours, theirs] = [(robot[k] ?? 0) / judge.scale, (mine[k] ?? 0) / judge.scale];
     if (ours === theirs) return;
     const side = ours > theirs ? taken : spared;
     const surplus = { feature, n: Math.abs(ours - theirs), more: ours !== 0 && theirs !== 0 };

@@ -4,7 +4,7 @@ import type { Legend } from '../shared/board/legend';
 import type { Board, Path, PlayBoard } from '../shared/board/types';
 import { World } from '../shared/play/world';
 import { tableOf, type Domain, type Driven, type Lesson } from './document';
-import { judgePath, type JudgedWorld, type Verdict } from './judge';
+import { judgeMove, judgePath, type JudgedWorld, type Verdict } from './judge';
 
 export interface Prediction {
   shown: Driven;
@@ -48,18 +48,39 @@ export class Worlds {
     return judgePath(this.lesson.judge, table, shown.counts, shown.state, actions, repeatsFrom);
   }
 
-  // Whether the robot's own way can be entered: the likeliest steps may lead round in a circle.
-  canBeAnswered(shown: Driven): boolean {
+  judgeMove(shown: Driven, action: number): Verdict | null {
+    const table = this.table(shown.world);
+    return table?.ahead ? judgeMove(this.lesson.judge, table, shown.counts, shown.state, action) : null;
+  }
+
+  // Whether the robot's own way can be entered: the likeliest steps may lead round in a circle, and there may be none
+  // that is likelier than others.
+  canBeDrawn(shown: Driven): boolean {
     const table = this.table(shown.world);
     if (!table) return false;
     if (!table.robot) return shown.frames.length - 1 <= table.max_actions;
     let state = shown.state;
     for (let t = 0; t < table.max_actions; t += 1) {
       if (table.end[state]) return true;
-      state = table.next[state]?.[table.robot[state] ?? -1] ?? -1;
+      const action = table.robot[state] ?? -1;
+      const elsewhere = (table.outcomes?.[state]?.[action] ?? []).filter(([next]) => next !== state).map(([, probability]) => probability);
+      const most = Math.max(...elsewhere);
+      if (elsewhere.filter((probability) => probability > most - 1e-9).length > 1) return false;
+      state = table.next[state]?.[action] ?? -1;
       if (state < 0) return false;
     }
     return table.end[state] ?? false;
+  }
+
+  // What a reader is asked for: the whole path, or failing that the first move.
+  asked(shown: Driven): 'path' | 'move' | 'nothing' {
+    if (this.canBeDrawn(shown)) return 'path';
+    return this.table(shown.world)?.ahead ? 'move' : 'nothing';
+  }
+
+  // What the robot avoids.
+  costs(): number[] {
+    return this.lesson.domain.features.flatMap(({ weight }, k) => (weight < 0 ? [k] : []));
   }
 }
 

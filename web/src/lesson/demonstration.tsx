@@ -5,14 +5,14 @@ import type { Board, Path } from '../shared/board/types';
 import { WorldName } from '../shared/play/board_pane';
 import { Brackets } from '../shared/play/brackets';
 import { Compare } from '../shared/play/compare';
+import { RunsView, type Runs } from '../shared/play/runs';
 import { SmallBoard } from '../shared/play/small_board';
 import { t, withoutCells } from '../shared/texts';
 import { choiceText } from './choice';
 import { partingOf, playBoard, upperFirst, usePrinting, type Context } from './context';
 import type { Demonstration, Sentence } from './document';
-import { Guessing, type Guess } from './guess';
-import { Fan } from './fan';
-import { RunsView } from './runs';
+import { askingText, Guessing, type Guess } from './guess';
+import { OutcomesView } from './outcomes';
 
 // Sentences that can be said, each once: of some constraints nothing short is true.
 export const textsOf = (sentences: Sentence[]): string[] =>
@@ -34,7 +34,6 @@ export function DemonstrationView({ shown, number, name, ...context }: Context &
   const [guess, setGuess] = useState<Guess | null>(null);
   const isPrinting = usePrinting();
   const seen = guess ?? (isPrinting ? kNothing : null);
-  const canGuess = context.worlds.canBeAnswered(shown);
   const done = (made: Guess): void => {
     setGuess(made);
     context.tell(name, { shown, mine: made.mine, isRight: made.verdict?.isRight ?? false });
@@ -44,9 +43,7 @@ export function DemonstrationView({ shown, number, name, ...context }: Context &
       <h3>Example {number}</h3>
       {!seen && (
         <p class="question">
-          {shown.map ? 'Where will the robot go?' : 'What will the robot do?'}
-          {canGuess ? ' Show it first, then watch.' : ' Decide first, then watch.'}
-          {canGuess && shown.runs && ` ${t('predict.chance')}`}
+          {askingText(context, shown, `${shown.map ? 'Where will the robot go?' : 'What will the robot do?'} Show it first, then watch.`)}
         </p>
       )}
       <WorldName board={playBoard(context.domain, shown)} />
@@ -74,8 +71,8 @@ function Seen({ shown, guess, isStill, ...context }: Context & { shown: Demonstr
   const at = isMine ? partingOf(shown, mine) : (shown.decisive?.frame ?? null);
   const reason = (
     <>
-      {mine && <p class={verdict?.isRight ? 'told right' : 'told wrong'}>{verdict?.isRight ? 'That is what it does.' : 'The robot takes another path.'}</p>}
-      <Reason {...context} shown={shown} own={isMine && verdict.counts ? choiceText(domain, shown.counts, verdict.counts) : ''} />
+      {mine && <p class={verdict?.isRight ? 'told right' : 'told wrong'}>{verdict?.isRight ? 'That is what it does.' : 'The robot does something else.'}</p>}
+      <Reason {...context} shown={shown} own={isMine && verdict.counts ? choiceText(context.lesson, shown.counts, verdict.counts) : ''} />
     </>
   );
   const rest = (
@@ -86,7 +83,15 @@ function Seen({ shown, guess, isStill, ...context }: Context & { shown: Demonstr
   );
   if (shown.runs) {
     return (
-      <RunsView {...context} board={shown} shown={shown.runs} isStill={isStill} reason={reason} fan={<Fan {...context} shown={shown} />}>
+      <RunsView
+        board={board}
+        legend={legend}
+        shown={shown.runs}
+        isStill={isStill}
+        isOpen
+        reason={reason}
+        below={<OutcomesView {...context} shown={shown} mine={isMine ? mine : null} other={other} at={at} />}
+      >
         {rest}
       </RunsView>
     );
@@ -156,11 +161,11 @@ export function Folded({ summary, isOpen, children }: { summary: string; isOpen?
 }
 
 interface WholeProps extends Context {
-  board: Board;
+  board: Board & { runs?: Runs | null };
   other?: Path | null;
   at?: number | null;
 }
 
 export function Whole({ board, domain, legend, ...rest }: WholeProps): JSX.Element {
-  return <SmallBoard board={playBoard(domain, board)} legend={legend} path={board} {...(rest.other ? { other: rest.other, at: rest.at ?? null } : {})} />;
+  return <SmallBoard board={playBoard(domain, board)} legend={legend} path={board} runs={board.runs?.runs} {...(rest.other ? { other: rest.other, at: rest.at ?? null } : {})} />;
 }

@@ -1,6 +1,7 @@
 // The document that kith writes (schema kith.curriculum/1), as far as the page uses it.
-import type { Board, Frame, MapDomain, Path, Place } from '../shared/board/types';
+import type { Board, MapDomain, Path, Place } from '../shared/board/types';
 import type { Bracket } from '../shared/play/brackets';
+import type { Runs } from '../shared/play/runs';
 import { World } from '../shared/play/world';
 import type { Judge, JudgedWorld } from './judge';
 
@@ -11,12 +12,6 @@ export interface Sentence {
 
 export interface Flip extends Board {
   text: string;
-}
-
-// Several runs of the robot, with outcomes as they fell, and what happened in how many of them.
-export interface Runs {
-  text: string;
-  runs: { frames: Frame[]; ended: boolean }[];
 }
 
 // A board on which somebody drives the robot: its start in the table of moves, and what the robot's own path counts.

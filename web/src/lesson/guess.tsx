@@ -1,11 +1,15 @@
-// Where the reader says what the robot will do, by driving it.
+// Where the reader says what the robot will do: by driving it or, where nobody can, by its first move.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
+import { kMoves } from '../shared/board/geometry';
 import type { Path } from '../shared/board/types';
+import { BoardPane, Things } from '../shared/play/board_pane';
 import { Driver } from '../shared/play/driver';
 import { useDrive } from '../shared/play/drive';
 import { Button } from '../shared/play/button';
-import { t } from '../shared/texts';
+import { Pad } from '../shared/play/pad';
+import { StateCard } from '../shared/play/steps';
+import { actionLabel, capitalised, t } from '../shared/texts';
 import { playBoard, type Context } from './context';
 import type { Driven } from './document';
 import type { Verdict } from './judge';
@@ -24,7 +28,8 @@ interface Props extends Context {
 
 export function Guessing({ shown, submit, skip, onGuess, domain, legend, worlds }: Props): JSX.Element {
   const board = playBoard(domain, shown);
-  const world = worlds.canBeAnswered(shown) ? worlds.world(shown.world) : null;
+  const asked = worlds.asked(shown);
+  const world = asked === 'nothing' ? null : worlds.world(shown.world);
   const skipped = <Button onClick={() => onGuess({ mine: null, verdict: null })}>{skip}</Button>;
   if (!world) {
     return (
@@ -33,7 +38,8 @@ export function Guessing({ shown, submit, skip, onGuess, domain, legend, worlds 
       </Driver>
     );
   }
-  return <Driving {...{ shown, submit, onGuess, domain, legend, worlds, board, world, skipped }} />;
+  const View = asked === 'path' ? Driving : Moving;
+  return <View {...{ shown, submit, onGuess, domain, legend, worlds, board, world, skipped }} />;
 }
 
 type DrivingProps = Pick<Props, 'shown' | 'submit' | 'onGuess' | 'legend' | 'worlds'> & {
@@ -41,6 +47,49 @@ type DrivingProps = Pick<Props, 'shown' | 'submit' | 'onGuess' | 'legend' | 'wor
   world: NonNullable<ReturnType<Context['worlds']['world']>>;
   skipped: JSX.Element;
 };
+
+// What is to be said to somebody who is about to guess.
+export function askingText({ worlds }: Context, shown: Driven & { runs: unknown }, question: string): string {
+  const asked = worlds.asked(shown);
+  if (asked === 'path') return shown.runs ? `${question} ${t('predict.chance')}` : question;
+  if (asked === 'nothing') return 'What will the robot do? Decide first, then look.';
+  return 'What will the robot try to do first? It does not always end up where it wants to go.';
+}
+
+// The first move only.
+function Moving({ shown, submit, onGuess, legend, worlds, board, world, skipped }: DrivingProps): JSX.Element {
+  const [chosen, setChosen] = useState<number | null>(null);
+  const name = world.actions[chosen ?? -1]?.name ?? '';
+  const robot = shown.start.robot;
+  const intents = robot && kMoves[name] ? [{ cell: robot, action: name, kind: 'other' as const }] : [];
+  const done = (): void => {
+    if (chosen === null) return;
+    const states = world.walk(shown.state, [chosen]);
+    onGuess({ mine: { frames: world.frames(states, [chosen]) }, verdict: worlds.judgeMove(shown, chosen) });
+  };
+  return (
+    <div class="board-screen">
+      <div class="board-column">
+        {board.map ? <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" intents={intents} /> : <StateCard frame={board.start} />}
+        {board.map && <Things board={board} legend={legend} lines={[]} walked={[]} />}
+      </div>
+      <div class="side">
+        <Pad actions={world.actions} off={false} canDo={(action) => world.after(shown.state, action) !== null} onAction={setChosen} />
+        <div class="submit">
+          <div class="buttons">
+            <Button primary={chosen !== null} off={chosen === null} onClick={done}>
+              {submit}
+            </Button>
+            {skipped}
+          </div>
+          <p class="muted" role="status">
+            {chosen === null ? 'Choose its first move.' : `Your choice: ${capitalised(actionLabel(name))}.`}
+          </p>
+        </div>
+      </div>
+    </div>
+  );
+}
 
 function Driving({ shown, submit, onGuess, legend, worlds, board, world, skipped }: DrivingProps): JSX.Element {
   const drive = useDrive({ world, start: shown.state, draft: [], key: '' });

@@ -9,9 +9,8 @@ export interface Judge {
   discount: number;
 }
 
-// Outcomes, the robot's actions, and what it counts from every state on, where chance or discounting have a part.
+// Also the robot's actions, and what it counts from every state on, where chance or discounting have a part.
 export interface JudgedWorld extends WorldDocument {
-  outcomes?: ([number, number, number[]][] | null)[][];
   robot?: number[];
   ahead?: number[][];
 }
@@ -71,6 +70,12 @@ function summed(world: WorldDocument, states: number[], actions: number[]): numb
     countsAt(world, states[t] ?? -1, action)?.forEach((n, k) => (sums[k] = (sums[k] ?? 0) + n));
   });
   return sums;
+}
+
+// Whether a first action is as good as the robot's own, if the robot goes on as ever. Only where expectations decide.
+export function judgeMove(judge: Judge, world: JudgedWorld, robot: number[], start: number, action: number): Verdict {
+  const counts = world.robot?.[start] === action ? robot : expected(judge, world, [start, -1], [action], null);
+  return { isFinished: true, counts, isRight: isAsGood(judge, robot, counts) };
 }
 
 // What is to be expected if the robot takes these actions for as long as it is where the path has it, and its own from

@@ -3,10 +3,12 @@ import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { Button } from '../shared/play/button';
 import { Brackets, type Bracket } from '../shared/play/brackets';
-import { partingOf, upperFirst, usePrinting, type Context, type Prediction } from './context';
-import { textsOf, Whole } from './demonstration';
+import { counted, partingOf, upperFirst, usePrinting, type Context, type Prediction } from './context';
+import { Folded, Whole } from './demonstration';
 import type { Component, Demonstration } from './document';
 import { TestView } from './test_card';
+
+const kEasy = 2; // so many things are weighed in a sentence that people remember
 
 interface EndProps extends Context {
   predictions: Map<string, Prediction>;
@@ -54,6 +56,7 @@ function shownBy({ demonstrations }: Component, all: Component[], text: string):
 }
 
 function Portrait({ predictions, ...context }: EndProps): JSX.Element {
+  const isPrinting = usePrinting();
   const { components, skipped } = context.lesson;
   const known = new Map<number, Bracket>();
   for (const { brackets } of components.flatMap(({ demonstrations }) => demonstrations)) {
@@ -61,23 +64,32 @@ function Portrait({ predictions, ...context }: EndProps): JSX.Element {
   }
   const said = new Set<string>();
   const lines = components.flatMap((component) =>
-    textsOf(component.sentences).flatMap((text) => {
-      if (said.has(text)) return [];
+    component.sentences.flatMap(({ text, normal }) => {
+      if (text === '' || said.has(text)) return [];
       said.add(text);
       const board = shownBy(component, components, text);
-      return [{ text, board }];
+      return [{ text, board, things: normal.filter((n) => n !== 0).length }];
     }),
   );
+  const shown = (some: typeof lines): JSX.Element => (
+    <ul class="lines">
+      {some.map(({ text, board }) => (
+        <li>
+          <p class="cost">{upperFirst(text)}.</p>
+          {board && <Whole {...context} board={board} other={board.runs ? null : board.alternative} at={board.decisive?.frame ?? null} />}
+        </li>
+      ))}
+    </ul>
+  );
+  const fine = lines.filter(({ things }) => things > kEasy);
   return (
     <div class="portrait">
-      <ul class="lines">
-        {lines.map(({ text, board }) => (
-          <li>
-            <p class="cost">{upperFirst(text)}.</p>
-            {board && <Whole {...context} board={board} other={board.runs ? null : board.alternative} at={board.decisive?.frame ?? null} />}
-          </li>
-        ))}
-      </ul>
+      {shown(lines.filter(({ things }) => things <= kEasy))}
+      {fine.length > 0 && (
+        <Folded summary={`${counted(fine.length, 'finer trade-off')}, of more than ${kEasy} things`} isOpen={isPrinting}>
+          {shown(fine)}
+        </Folded>
+      )}
       <Brackets brackets={[...known.values()]} />
       {skipped.length > 0 && (
         <>

@@ -4,19 +4,19 @@ import { useState } from 'preact/hooks';
 import { Button } from '../shared/play/button';
 import { WorldName } from '../shared/play/board_pane';
 import { Compare } from '../shared/play/compare';
+import { RunsView } from '../shared/play/runs';
 import { Mark } from '../shared/play/mark';
 import { t } from '../shared/texts';
 import { choiceText } from './choice';
 import { partingOf, playBoard, upperFirst, usePrinting, type Context } from './context';
 import { Sentences, textsOf, Whole } from './demonstration';
 import type { Test } from './document';
-import { Guessing, type Guess } from './guess';
-import { RunsView } from './runs';
+import { askingText, Guessing, type Guess } from './guess';
+import { OutcomesView } from './outcomes';
 
 export function TestView({ test, title, name, ...context }: Context & { test: Test; title: string; name: string }): JSX.Element {
   const [guess, setGuess] = useState<Guess | null>(null);
   const isPrinting = usePrinting();
-  const canAnswer = context.worlds.canBeAnswered(test);
   const done = (made: Guess): void => {
     setGuess(made);
     context.tell(name, { shown: test, mine: made.mine, isRight: made.verdict?.isRight ?? false });
@@ -25,15 +25,11 @@ export function TestView({ test, title, name, ...context }: Context & { test: Te
     <article class="test card">
       <h4>{title}</h4>
       {!guess && (
-        <p class="question">
-          {!canAnswer && 'What will the robot do? Decide first, then look at the answer.'}
-          {canAnswer && (test.map ? t('predict.question') : t('predict.question_plain'))}
-          {canAnswer && test.runs && ` ${t('predict.chance')}`}
-        </p>
+        <p class="question">{askingText(context, test, t(test.map ? 'predict.question' : 'predict.question_plain'))}</p>
       )}
       <WorldName board={playBoard(context.domain, test)} />
       {isPrinting ? (
-        <Whole {...context} board={{ ...test, frames: test.frames.slice(0, 1) }} />
+        <Whole {...context} board={{ ...test, frames: test.frames.slice(0, 1), runs: null }} />
       ) : guess ? (
         <Answered {...context} test={test} guess={guess} onAgain={() => setGuess(null)} />
       ) : (
@@ -49,7 +45,7 @@ function Answered({ test, guess, onAgain, ...context }: Context & { test: Test; 
   const isRight = verdict?.isRight ?? false;
   const at = mine && !isRight ? partingOf(test, mine) : null;
   const word = !mine ? 'none' : isRight ? 'right' : 'wrong';
-  const why = verdict?.counts && !isRight ? choiceText(domain, test.counts, verdict.counts) : '';
+  const why = verdict?.counts && !isRight ? choiceText(context.lesson, test.counts, verdict.counts) : '';
   const reason = (
     <>
       <div class={`verdict ${word}`} role="status">
@@ -75,7 +71,14 @@ function Answered({ test, guess, onAgain, ...context }: Context & { test: Test; 
   );
   if (test.runs) {
     return (
-      <RunsView {...context} board={test} shown={test.runs} isStill={false} reason={reason}>
+      <RunsView
+        board={playBoard(domain, test)}
+        legend={legend}
+        shown={test.runs}
+        isOpen
+        reason={reason}
+        below={<OutcomesView {...context} shown={test} mine={mine} other={isRight ? null : mine} at={at} />}
+      >
         {again}
       </RunsView>
     );

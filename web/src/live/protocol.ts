@@ -2,6 +2,7 @@
 import type { Frame, Path, PlayBoard } from '../shared/board/types';
 import type { KeyPress } from '../shared/play/drive';
 import type { Bracket } from '../shared/play/brackets';
+import type { Runs } from '../shared/play/runs';
 
 export type { Frame } from '../shared/board/types';
 
@@ -31,12 +32,6 @@ export interface Task {
   draft: number[];
 }
 
-// Where chance has a part: several runs of the robot, and what happened in how many of them, in English.
-export interface Runs {
-  text: string;
-  runs: { frames: Frame[]; ended: boolean }[];
-}
-
 export interface Judged {
   board: PlayBoard;
   right: boolean;
@@ -50,6 +45,7 @@ export interface Judged {
   unfinished: boolean; // the prediction ends before the robot has finished
   why: string[];
   cost?: string;
+  chance?: { world: string; state: number; spared: number[] }; // the start in its table of moves, and what the robot's move at the fork avoids
 }
 
 export interface Question {

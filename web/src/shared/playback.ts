@@ -9,7 +9,7 @@ export interface Playback {
   toggle: () => void;
 }
 
-const kLongest = 14000; // milliseconds for a whole path
+const kLongest = 12000; // milliseconds for a whole path at normal speed
 const kPace = { slowest: 750, fastest: 40 };
 
 // Where it begins, and whether it does so by itself; for those who ask for less motion it is at its end.

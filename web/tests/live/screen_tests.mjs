@@ -261,18 +261,19 @@ export function screenTests(setting) {
       await withViews(setting, async ({ views, mock, person, page }) => {
         await show({ mock, page }, views['watch-runs']);
         const text = () => page.textContent('main');
-        assert.match(await text(), /Chance plays a part here.*tried 2 times.*Try 1 of 2/s);
+        assert.match(await text(), /Chance plays a part here.*Here are 2 of its runs.*Run 1 of 2/s);
         assert.doesNotMatch(await text(), /In all:/);
         assert.equal(await page.locator('.tried').count(), 0, 'drawn before it is walked');
         await playToTheEnd(person);
         assert.equal(await page.locator('.live-board .tried').count(), 1);
         assert.match(await text(), /Why do you think the robot chose these moves\?.*Where the robot tried to go.*This is where the example ends\./s);
         assert.match(await text(), /In all: stopping at the charger in 1 of 2 runs; a different path in each of 2 runs\./);
-        await person.button('Next try').click();
-        assert.match(await text(), /Try 2 of 2/);
+        assert.ok((await page.locator('.live-board .intent').count()) > 0, 'where it means to go is not drawn');
+        await page.getByRole('button', { name: /^Run 2: / }).click();
+        assert.match(await text(), /Run 2 of 2/);
         await person.said('The robot has not moved yet.');
         await playToTheEnd(person);
-        assert.match(await text(), /The robot has finished its job\./);
+        assert.match(await text(), /This is where the example ends\./);
       });
     });
 

@@ -6,17 +6,19 @@ import { useLegend, WorldName } from '../../shared/play/board_pane';
 import { Mark } from '../../shared/play/mark';
 import { Brackets, type Bracket } from '../../shared/play/brackets';
 import { Compare } from '../../shared/play/compare';
+import { Fan, stateAt } from '../../shared/play/fan';
 import { sentence, t } from '../../shared/texts';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { remember } from '../memory';
 import type { Frame, Judged } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
+import { useWorld } from '../world';
 
 type Shown = NonNullable<ScreenProps['view']['feedback']>;
 
 // One task per screen.
-export function Feedback({ feedback, view, connection }: ScreenProps & { feedback: Shown }): JSX.Element {
+export function Feedback({ feedback, view, connection, token }: ScreenProps & { feedback: Shown }): JSX.Element {
   const { part = 0, round = 0 } = view.progress ?? {};
   const key = `${part}.${round}`;
   const [index, setIndex] = useState(() => {
@@ -51,18 +53,19 @@ export function Feedback({ feedback, view, connection }: ScreenProps & { feedbac
     <>
       <p class="kicker">{t('feedback.count', { index: index + 1, of: feedback.tests.length })}</p>
       <TimeLeft until={view.limit_ms} />
-      <OneTask key={index} test={test} brackets={isLast ? (feedback.brackets ?? []) : []} next={next} />
+      <OneTask key={index} test={test} token={token} brackets={isLast ? (feedback.brackets ?? []) : []} next={next} />
     </>
   );
 }
 
 interface OneTaskProps {
   test: Judged;
+  token: string;
   brackets: Bracket[];
   next: JSX.Element;
 }
 
-function OneTask({ test, brackets, next }: OneTaskProps): JSX.Element {
+function OneTask({ test, token, brackets, next }: OneTaskProps): JSX.Element {
   const { board, right } = test;
   const robot = pathOf(test.robot, test.robot_repeats_from, test.robot_repeats_text);
   const mine = right || !test.mine ? null : pathOf(test.mine, test.mine_repeats_from);
@@ -87,10 +90,38 @@ function OneTask({ test, brackets, next }: OneTaskProps): JSX.Element {
         at={mine ? test.differs_at : null}
         reason={<Reasons test={test} />}
       >
+        {test.chance && mine && <Outcomes test={test} chance={test.chance} mine={mine} token={token} />}
         <Brackets brackets={brackets} />
         {next}
       </Compare>
     </>
+  );
+}
+
+interface OutcomesProps {
+  test: Judged;
+  chance: NonNullable<Judged['chance']>;
+  mine: Path;
+  token: string;
+}
+
+// Where chance has a part: what can follow from the robot's action and from the predicted one where the paths separate.
+function Outcomes({ test, chance, mine, token }: OutcomesProps): JSX.Element | null {
+  const { world } = useWorld(chance.world, token);
+  const legend = useLegend(test.board.domain);
+  const at = test.differs_at;
+  if (!world || at === null) return null;
+  return (
+    <Fan
+      board={test.board}
+      legend={legend}
+      world={world}
+      state={stateAt(world, chance.state, test.robot, at)}
+      own={world.actionOf(test.robot[at])}
+      other={world.actionOf(mine.frames[at])}
+      isYours
+      costs={chance.spared}
+    />
   );
 }
 

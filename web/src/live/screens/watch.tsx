@@ -13,10 +13,10 @@ import { useDrive } from '../../shared/play/drive';
 import { Driver } from '../../shared/play/driver';
 import type { World } from '../../shared/play/world';
 import { useWorld } from '../world';
-import type { Runs } from '../protocol';
+import { RunsView, walked, type Runs } from '../../shared/play/runs';
 import type { ScreenProps } from '../screen';
 import { driveStore, keep, recall } from '../storage';
-import { isEnglish, t } from '../../shared/texts';
+import { t } from '../../shared/texts';
 import { isJobDone, onAndOn, playedText } from '../../shared/play/words';
 
 type Shown = NonNullable<ScreenProps['view']['watch']>;
@@ -84,95 +84,120 @@ function Sketching({ world, watch, name, onDone }: SketchingProps): JSX.Element 
   );
 }
 
+type WatchingProps = ScreenProps & { watch: Shown };
+
 // `sketch` is empty where there is none.
-function Watching({ watch, view, connection, sketch }: ScreenProps & { watch: Shown; sketch: Frame[] }): JSX.Element {
+function Watching({ sketch, ...props }: WatchingProps & { sketch: Frame[] }): JSX.Element {
+  const { watch, view } = props;
   const { board, runs } = watch;
-  const [run, setRun] = useState(0);
-  const path = runs?.runs[run] ?? watch;
-  const frames = played(path);
   const { part = 0, round = 0 } = view.progress ?? {};
   const key = `${part}.${round}.${watch.index}`;
-  const legend = useLegend(board.domain);
-  const playback = usePacedPlayback(Math.max(0, frames.length - 1));
-  const { step, last } = playback;
   const [wasSeen, setSeen] = useState(() => recall<string>('seen') === key);
-  const log = useLog(t('watch.start'));
-  const shown = useRef(0);
-  useLayoutEffect(() => {
-    if (step === shown.current) return;
-    shown.current = step;
-    log.say(playedText(board, legend, path, step));
-  }, [step]);
-  useLayoutEffect(() => {
-    if (step < last || wasSeen) return;
+  const seen = (): void => {
+    if (wasSeen) return;
     setSeen(true);
     keep('seen', key);
-  }, [step, last]);
-  const off = connection.isPending('watched');
-  const hasSketch = sketch.length > 1 && !runs;
+  };
   return (
     <>
       <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
       <Heading>{t('watch.title')}</Heading>
       <p class="lead">{t(leadKey(watch, wasSeen))}</p>
-      {hasSketch && <p>{t('watch.compare')}</p>}
+      {sketch.length > 1 && !runs && <p>{t('watch.compare')}</p>}
       <Job board={board} />
       <WorldName board={board} />
-      {runs && <p>{t('watch.runs', { n: runs.runs.length })}</p>}
       <TimeLeft until={view.limit_ms} />
-      <div class="board-screen">
-        <div class="board-column">
-          {board.map ? (
-            <BoardPane
-              board={board}
-              legend={legend}
-              frames={frames}
-              step={step}
-              trail="own"
-              closedAt={closedAt(path)}
-              {...(hasSketch ? { other: sketch, decisive: { frame: 0 }, walked: Math.max(1, step) } : {})}
-            />
-          ) : (
-            <StateCard frame={frames[step] ?? board.start} />
-          )}
-          <LogView log={log} />
-          {board.map && <Things board={board} legend={legend} lines={hasSketch ? ['own', 'other'] : ['own']} walked={frames.slice(0, step + 1)} />}
-        </div>
-        <div class="side">
-          <Ledger domain={board.domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
-          <Player playback={playback} primary={!wasSeen} />
-          {runs && (
-            <RunChoice
-              run={run}
-              runs={runs}
-              isSeen={wasSeen}
-              onRun={(to) => {
-                setRun(to);
-                playback.show(0);
-              }}
-            />
-          )}
-          <div class="submit">
-            <Button
-              primary={wasSeen}
-              off={!wasSeen || off}
-              describedBy="watch-hint"
-              onClick={() => connection.send('watched', { demo: watch.index })}
-            >
-              {t('common.next')}
-            </Button>
-            <p id="watch-hint" class="muted">
-              {hint(wasSeen, path, isJobDone(board, legend, frames.at(-1)))}
-            </p>
-          </div>
-          {board.map ? (
-            <BoardInWords board={board} legend={legend} frame={frames[step] ?? board.start} />
-          ) : (
-            <StepList title={t('feedback.robot')} frames={walked(frames, step)} />
-          )}
-        </div>
-      </div>
+      {runs ? (
+        <WatchingRuns {...props} runs={runs} wasSeen={wasSeen} onSeen={seen} />
+      ) : (
+        <WatchingPath {...props} sketch={sketch} wasSeen={wasSeen} onSeen={seen} />
+      )}
     </>
+  );
+}
+
+interface Seeing {
+  wasSeen: boolean;
+  onSeen: () => void;
+}
+
+// What happened in all of the runs would tell too early.
+function WatchingRuns({ runs, wasSeen, onSeen, ...props }: WatchingProps & Seeing & { runs: Runs }): JSX.Element {
+  const { board } = props.watch;
+  const legend = useLegend(board.domain);
+  return (
+    <RunsView board={board} legend={legend} shown={runs} isOpen={wasSeen} primary={!wasSeen} onSeen={onSeen}>
+      <GoOn {...props} wasSeen={wasSeen} hint={t(wasSeen ? 'watch.over' : 'watch.finish')} />
+    </RunsView>
+  );
+}
+
+function WatchingPath({ sketch, wasSeen, onSeen, ...props }: WatchingProps & Seeing & { sketch: Frame[] }): JSX.Element {
+  const { watch } = props;
+  const { board } = watch;
+  const frames = played(watch);
+  const legend = useLegend(board.domain);
+  const playback = usePacedPlayback(Math.max(0, frames.length - 1));
+  const { step, last } = playback;
+  const log = useLog(t('watch.start'));
+  const shown = useRef(0);
+  useLayoutEffect(() => {
+    if (step === shown.current) return;
+    shown.current = step;
+    log.say(playedText(board, legend, watch, step));
+  }, [step]);
+  useLayoutEffect(() => {
+    if (step === last) onSeen();
+  }, [step, last]);
+  const hasSketch = sketch.length > 1;
+  return (
+    <div class="board-screen">
+      <div class="board-column">
+        {board.map ? (
+          <BoardPane
+            board={board}
+            legend={legend}
+            frames={frames}
+            step={step}
+            trail="own"
+            closedAt={closedAt(watch)}
+            {...(hasSketch ? { other: sketch, decisive: { frame: 0 }, walked: Math.max(1, step) } : {})}
+          />
+        ) : (
+          <StateCard frame={frames[step] ?? board.start} />
+        )}
+        <LogView log={log} />
+        {board.map && <Things board={board} legend={legend} lines={hasSketch ? ['own', 'other'] : ['own']} walked={frames.slice(0, step + 1)} />}
+      </div>
+      <div class="side">
+        <Ledger domain={board.domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
+        <Player playback={playback} primary={!wasSeen} />
+        <GoOn {...props} wasSeen={wasSeen} hint={hint(wasSeen, watch, isJobDone(board, legend, frames.at(-1)))} />
+        {board.map ? (
+          <BoardInWords board={board} legend={legend} frame={frames[step] ?? board.start} />
+        ) : (
+          <StepList title={t('feedback.robot')} frames={walked(frames, step)} />
+        )}
+      </div>
+    </div>
+  );
+}
+
+function GoOn({ watch, connection, wasSeen, hint: text }: WatchingProps & { wasSeen: boolean; hint: string }): JSX.Element {
+  return (
+    <div class="submit">
+      <Button
+        primary={wasSeen}
+        off={!wasSeen || connection.isPending('watched')}
+        describedBy="watch-hint"
+        onClick={() => connection.send('watched', { demo: watch.index })}
+      >
+        {t('common.next')}
+      </Button>
+      <p id="watch-hint" class="muted">
+        {text}
+      </p>
+    </div>
   );
 }
 
@@ -184,32 +209,3 @@ function hint(wasSeen: boolean, path: Path, isDone: boolean): string {
 
 const leadKey = ({ board, runs }: Shown, wasSeen: boolean): string =>
   wasSeen && runs ? 'watch.think_runs' : `watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`;
-
-interface RunChoiceProps {
-  run: number;
-  runs: Runs;
-  isSeen: boolean; // what happened in all of them would tell too early
-  onRun: (to: number) => void;
-}
-
-function RunChoice({ run, runs, isSeen, onRun }: RunChoiceProps): JSX.Element {
-  const of = runs.runs.length;
-  return (
-    <div class="runs" role="group" aria-label={t('watch.run', { index: run + 1, of })}>
-      <p role="status">{t('watch.run', { index: run + 1, of })}</p>
-      <div class="buttons">
-        <Button off={run === 0} onClick={() => onRun(run - 1)}>
-          {t('watch.previous_run')}
-        </Button>
-        <Button off={!isSeen || run + 1 === of} onClick={() => onRun(run + 1)}>
-          {t('watch.next_run')}
-        </Button>
-      </div>
-      {isSeen && isEnglish() && <p class="muted">{t('watch.all_runs', { what: runs.text })}</p>}
-    </div>
-  );
-}
-
-// The steps that have been made: what comes next is not told.
-export const walked = (frames: Shown['frames'], step: number): Shown['frames'] =>
-  frames.slice(0, step + 1).map((frame, i) => (i < step ? frame : { ...frame, action: null }));

@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Chips, type Chip } from './chips';
 import { Fan, type Arm } from './fan';
-import { centre, kMargin, kUnit, lineOf, type Attempt, type Point } from './geometry';
+import { centre, kMargin, kMoves, kUnit, lineOf, type Attempt, type Point } from './geometry';
 import { At, Destination, fillOf, PartGlyph, Robot, Station, Thing } from './glyphs';
 import { isRidden } from './icons';
 import type { Legend } from './legend';
@@ -14,6 +14,13 @@ import { BoardWindow, type WindowTexts } from './window';
 export const kFew = 12; // columns of a map that is drawn in full size
 const kRobotLane = 0.08;
 const kOtherLane = 0.2;
+
+// Where the robot means to go from a cell.
+export interface Intent {
+  cell: Place;
+  action: string; // a move
+  kind?: 'own' | 'other';
+}
 
 export interface BoardProps {
   domain: MapDomain;
@@ -27,6 +34,7 @@ export interface BoardProps {
   whole?: boolean; // both paths are drawn to their ends, wherever the robots are
   chips?: Chip[];
   fan?: Arm[];
+  intents?: Intent[];
   tail?: number; // only so many of the last steps are drawn
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
   closedAt?: number | undefined; // the step with which the path closes a cycle; it is drawn as far as that
@@ -56,6 +64,7 @@ export function BoardView(props: BoardProps): JSX.Element {
   const drawing = (
     <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} {...(label === '' ? { 'aria-hidden': true } : { role: 'img', 'aria-label': label })}>
       {ground}
+      <Intents intents={props.intents ?? []} />
       {decisive?.cell && drawn > decisive.frame && <Decisive cell={decisive.cell} />}
       {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind="other" closedAt={props.otherClosedAt} />}
       {own.length > 0 && <Way frames={own} first={props.tail === undefined ? 0 : Math.max(0, own.length - 1 - props.tail)} lane={kRobotLane} kind={kind} closedAt={props.closedAt} />}
@@ -214,6 +223,23 @@ function destinationsOn(map: string[], legend: Legend): { name: string; cell: Pl
         .map(({ name }) => ({ name: name.replace(/^destination of /, ''), cell: [x + 1, y + 1] as Place })),
     ),
   );
+}
+
+function Intents({ intents }: { intents: Intent[] }): JSX.Element {
+  return (
+    <g>
+      {intents.map(({ cell, action, kind }) => (
+        <At at={centre(cell)}>
+          <IntentGlyph action={action} kind={kind ?? 'own'} />
+        </At>
+      ))}
+    </g>
+  );
+}
+
+export function IntentGlyph({ action, kind }: { action: string; kind: 'own' | 'other' }): JSX.Element {
+  const [dx, dy] = kMoves[action] ?? [0, 0];
+  return <path class={`intent ${kind}`} d="M-11 0H10M4 -6L11 0L4 6" transform={`rotate(${(Math.atan2(dy, dx) * 180) / Math.PI})`} />;
 }
 
 function Decisive({ cell }: { cell: Place }): JSX.Element {

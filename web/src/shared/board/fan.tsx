@@ -20,7 +20,7 @@ export function Fan({ arms }: { arms: Arm[] }): JSX.Element {
         const [dx, dy] = [Math.sign(to[0] - from[0]), Math.sign(to[1] - from[1])];
         const isStaying = dx === 0 && dy === 0;
         const end = { x: at.x + 0.62 * kUnit * dx, y: at.y + 0.62 * kUnit * dy };
-        const label = { x: at.x + 1.02 * kUnit * dx, y: isStaying ? at.y + 15 : at.y + 0.98 * kUnit * dy };
+        const label = isStaying ? { x: at.x - 12, y: at.y + 15 } : { x: at.x + 1.02 * kUnit * dx, y: at.y + 0.98 * kUnit * dy };
         const width = text.length * kSize * 0.5 + 7;
         return (
           <g class={`way ${kind}`}>

@@ -14,15 +14,16 @@ interface Props {
   own: Frame[]; // paths as far as they are drawn
   other: Frame[];
   kind: 'own' | 'other'; // how the first is drawn
-  seen: Seen;
+  seen?: Seen; // nothing: all of it is seen
+  label?: string; // for those who do not see it
 }
 
-export function OverviewMap({ domain, legend, board, frame, own, other, kind, seen }: Props): JSX.Element {
+export function OverviewMap({ domain, legend, board, frame, own, other, kind, seen, label }: Props): JSX.Element {
   const [width, height] = [(domain.width ?? 0) * kUnit, (domain.height ?? 0) * kUnit];
   const ground = useMemo(() => <Ground map={board.map ?? []} legend={legend} />, [board.map, legend]);
   const lying = (frame.items ?? []).filter(({ carried }) => !carried).map(({ cell }) => cell);
   return (
-    <svg viewBox={`${-kMargin} ${-kMargin} ${width + 2 * kMargin} ${height + 2 * kMargin}`} focusable="false">
+    <svg viewBox={`${-kMargin} ${-kMargin} ${width + 2 * kMargin} ${height + 2 * kMargin}`} focusable="false" {...(label ? { role: 'img', 'aria-label': label } : {})}>
       <rect class="floor" width={width} height={height} />
       {ground}
       <rect class="frame" width={width} height={height} />
@@ -32,7 +33,7 @@ export function OverviewMap({ domain, legend, board, frame, own, other, kind, se
         <Dot name="spot" cell={cell} />
       ))}
       {frame.robot && <Dot name="here" cell={frame.robot} />}
-      <rect class="seen" x={seen.x} y={seen.y} width={seen.width} height={seen.height} />
+      {seen && <rect class="seen" x={seen.x} y={seen.y} width={seen.width} height={seen.height} />}
     </svg>
   );
 }

@@ -1,7 +1,7 @@
 // A board as large as the window allows, which says where somebody clicks.
 import type { JSX } from 'preact';
 import { useMemo, useState } from 'preact/hooks';
-import { BoardView, Tried } from '../board/board';
+import { BoardView, IntentGlyph, Tried, type Intent } from '../board/board';
 import type { Chip } from '../board/chips';
 import type { Arm } from '../board/fan';
 import { hasSlipped, kUnit, lineOf } from '../board/geometry';
@@ -46,6 +46,7 @@ interface Props {
   whole?: boolean;
   chips?: Chip[];
   fan?: Arm[];
+  intents?: Intent[];
   tail?: number; // only so many of the last steps are drawn
   isSmall?: boolean; // a picture of the whole board beside others
   isBare?: boolean; // part of something that says what it is
@@ -110,10 +111,11 @@ interface ThingsProps {
   walked: Frame[]; // the path as far as it is drawn
   decisive?: boolean; // whether the place where paths separate is marked
   otherLine?: string; // what a line of the other kind is
+  hasIntents?: boolean; // whether it is drawn where the robot means to go
 }
 
 // What is on this board, and nothing else.
-export function Things({ board, legend, lines, walked, decisive, otherLine }: ThingsProps): JSX.Element {
+export function Things({ board, legend, lines, walked, decisive, otherLine, hasIntents }: ThingsProps): JSX.Element {
   const symbols = new Set((board.map ?? []).flatMap((row) => [...row]));
   const onMap = new Set<string>();
   for (const { kind, name } of [...symbols].flatMap((symbol) => legend.parts(symbol))) {
@@ -148,6 +150,11 @@ export function Things({ board, legend, lines, walked, decisive, otherLine }: Th
           <g class={`way ${kind}`}>
             <circle class="stop" r={17} />
           </g>
+        </Entry>
+      )}
+      {hasIntents && (
+        <Entry name={t('legend.intent')}>
+          <IntentGlyph action="right" kind="own" />
         </Entry>
       )}
       {decisive && (

@@ -1,87 +1,70 @@
-// Where chance has a part: what can follow from what the robot does at the decisive place, and from what one might have
-// expected there. What makes an action safe is found by comparing the two.
+// Where chance has a part: what can follow from the robot's action at a place, and from another one there. What makes
+// an action safe is found by comparing the two.
 import type { JSX } from 'preact';
-import type { Arm } from '../shared/board/fan';
-import { kMoves } from '../shared/board/geometry';
-import { BoardPane } from '../shared/play/board_pane';
-import { actionLabel, listed } from '../shared/texts';
-import { playBoard } from './context';
-import type { Context } from './context';
-import type { Demonstration } from './document';
-import type { JudgedWorld } from './judge';
+import type { Arm } from '../board/fan';
+import { kMoves } from '../board/geometry';
+import type { Legend } from '../board/legend';
+import type { Frame, PlayBoard } from '../board/types';
+import { actionLabel, listed, named, t } from '../texts';
+import { BoardPane } from './board_pane';
+import { labelOf } from './ledger';
+import type { Branch, World } from './world';
 
-interface Branch {
-  next: number;
-  probability: number;
-  counts: number[];
-}
-
-const branchesOf = (table: JudgedWorld, state: number, action: number): Branch[] =>
-  (table.outcomes?.[state]?.[action] ?? []).map(([next, probability, counts]) => ({ next, probability, counts }));
-
-// "1 of 3", "2 of 5"; per cent where no small number of tries says it.
-function shareText(probability: number): string {
-  for (const n of [2, 3, 4, 5, 6, 8, 10]) {
-    const times = probability * n;
-    if (Math.abs(times - Math.round(times)) < 1e-6 && Math.round(times) > 0) return `${Math.round(times)} of ${n} tries`;
+// "1 of 3 tries", "2 of 5 tries"; per cent where no small number of tries says it.
+function shareText(probability: number, short = false): string {
+  for (const of of [2, 3, 4, 5, 6, 8, 10]) {
+    const n = Math.round(probability * of);
+    if (Math.abs(probability * of - n) < 1e-6 && n > 0) return t(short ? 'fan.of' : 'fan.tries', { n, of });
   }
-  return `${Math.round(100 * probability)} % of tries`;
+  const percent = Math.round(100 * probability);
+  return short ? `${percent} %` : t('fan.percent', { percent });
 }
 
-// Where the robot is at a step of its path, as a state of the table.
-function stateAt(shown: Demonstration, table: JudgedWorld, world: NonNullable<ReturnType<Context['worlds']['world']>>, step: number): number {
-  let state = shown.state;
-  for (let t = 0; t < step; t += 1) {
-    const action = world.actions.find(({ name }) => name === shown.frames[t]?.action)?.index ?? -1;
-    const wanted = JSON.stringify(shown.frames[t + 1]?.robot ?? shown.frames[t + 1]?.state);
-    const branch = branchesOf(table, state, action).find(({ next }) => JSON.stringify(world.frame(next).robot ?? world.frame(next).state) === wanted);
-    if (!branch) return -1;
-    state = branch.next;
+// Where a path is at one of its frames, as a state of the table; -1: it does not say.
+export function stateAt(world: World, start: number, frames: Frame[], step: number): number {
+  const look = (frame: Frame | undefined): string => JSON.stringify(frame?.robot ?? frame?.state);
+  let state = start;
+  for (let i = 0; i < step && state >= 0; i += 1) {
+    const all = world.branches(state, world.actionOf(frames[i]));
+    state = all.find(({ next }) => look(world.frame(next)) === look(frames[i + 1]))?.next ?? -1;
   }
   return state;
 }
 
-export function Fan({ shown, domain, legend, worlds }: Context & { shown: Demonstration }): JSX.Element | null {
-  const world = worlds.world(shown.world);
-  const table = worlds.table(shown.world);
-  const step = shown.decisive?.frame;
-  if (!world || !table?.outcomes || step === undefined || !shown.alternative) return null;
-  const state = stateAt(shown, table, world, step);
-  const named = (name: string | null | undefined): number => world.actions.find((action) => action.name === name)?.index ?? -1;
-  const [own, other] = [named(shown.frames[step]?.action), named(shown.alternative.frames[step]?.action)];
-  const ways = [own, other].map((action) => ({ action, branches: branchesOf(table, state, action) }));
-  if (state < 0 || own === other || ways.some(({ branches }) => branches.length === 0)) return null;
+interface Props {
+  board: PlayBoard;
+  legend: Legend;
+  world: World;
+  state: number; // where both actions are possible
+  own: number; // the robot's action
+  other: number;
+  isYours: boolean; // the other action is what the reader has predicted
+  costs: number[]; // what the robot avoids, as positions in `counted` of the domain
+}
+
+export function Fan({ board, legend, world, state, own, other, isYours, costs }: Props): JSX.Element | null {
+  const ways = [own, other].map((action) => ({ action, branches: state < 0 ? [] : world.branches(state, action) }));
+  const [first, second] = ways;
+  if (own === other || !first || !second || ways.some(({ branches }) => branches.length === 0)) return null;
+  if (ways.every(({ branches }) => branches.length === 1)) return null; // nothing is left to chance
   const here = world.frame(state).robot;
-  const whereTo = ({ next }: Branch): string => {
-    const to = world.frame(next).robot;
-    if (!here || !to) return `it gets to ${world.frame(next).state ?? 'elsewhere'}`;
-    const [dx, dy] = [to[0] - here[0], to[1] - here[1]];
-    if (dx === 0 && dy === 0) return 'it stays where it is';
-    const direction = Object.keys(kMoves).find((name) => kMoves[name]?.[0] === dx && kMoves[name]?.[1] === dy);
-    return direction ? `it goes ${actionLabel(direction)}` : 'it ends up elsewhere';
-  };
   const armsOf = (branches: Branch[], kind: Arm['kind']): Arm[] =>
     branches.flatMap(({ next, probability }) => {
       const to = world.frame(next).robot;
-      return here && to ? [{ from: here, to, kind, text: shareText(probability).replace(/ tries$/, '') }] : [];
+      return here && to ? [{ from: here, to, kind, text: shareText(probability, true) }] : [];
     });
-  // What costs the robot something and happens after the one action but never, or less often, after the other.
-  const chanceOf = (branches: Branch[], k: number): number =>
-    branches.reduce((sum, { probability, counts }) => sum + ((counts[k] ?? 0) !== 0 ? probability : 0), 0);
-  const saved = domain.features.flatMap((feature, k) => {
-    const [mine, theirs] = [chanceOf(ways[0]?.branches ?? [], k), chanceOf(ways[1]?.branches ?? [], k)];
-    return feature.weight < 0 && mine + 1e-9 < theirs ? [{ feature, mine, theirs }] : [];
-  });
-  const pushes = (ways[0]?.branches ?? []).some((branch) => whereTo(branch) === 'it stays where it is');
+  const whose = ['robot', isYours ? 'yours' : 'expected'];
+  const saying = (action: number, i: number): string =>
+    t(`fan.${whose[i] ?? ''}${world.actions[action]?.shift ? '' : '_does'}`, { action: actionLabel(world.actions[action]?.name ?? '') });
   return (
     <div class="fan">
-      <p>What can happen at the decisive place:</p>
+      <p>{t('fan.title')}</p>
       <div class="pair">
         {ways.map(({ action, branches }, i) => (
           <figure>
-            {here && shown.map && (
+            {here && board.map && (
               <BoardPane
-                board={playBoard(domain, shown)}
+                board={board}
                 legend={legend}
                 frames={[world.frame(state)]}
                 step={0}
@@ -91,22 +74,52 @@ export function Fan({ shown, domain, legend, worlds }: Context & { shown: Demons
               />
             )}
             <figcaption>
-              <strong class={i === 0 ? 'own' : 'other'}>{i === 0 ? 'The robot' : 'Somebody might expect that it'}</strong>
-              {` tries to go ${actionLabel(world.actions[action]?.name ?? '')}: `}
-              {listed(branches.map((branch) => `${whereTo(branch)} in ${shareText(branch.probability)}`))}.
+              <strong class={i === 0 ? 'own' : 'other'}>{saying(action, i)}</strong>{' '}
+              {listed(branches.map(({ next, probability }) => `${whereTo(world, state, next)} ${shareText(probability)}`))}.
             </figcaption>
           </figure>
         ))}
       </div>
-      {saved.map(({ feature, mine, theirs }) => (
-        <p class="cost">
-          {mine === 0
-            ? `The robot's move cannot end in ${feature.words}. The other one does in ${shareText(theirs)}.`
-            : `The robot's move ends in ${feature.words} in ${shareText(mine)}, the other one in ${shareText(theirs)}.`}
-          {pushes && mine === 0 && ' It pushes against the edge or a wall on purpose: if it slips, it slips to where nothing happens.'}
-        </p>
-      ))}
+      <Saved board={board} world={world} state={state} own={first.branches} other={second.branches} costs={costs} />
     </div>
   );
 }
 
+function whereTo(world: World, from: number, next: number): string {
+  const [here, to] = [world.frame(from).robot, world.frame(next).robot];
+  if (!here || !to) return t('fan.state', { state: named(world.frame(next).state ?? '') });
+  const [dx, dy] = [to[0] - here[0], to[1] - here[1]];
+  if (dx === 0 && dy === 0) return t('fan.stays');
+  const direction = Object.keys(kMoves).find((name) => kMoves[name]?.[0] === dx && kMoves[name]?.[1] === dy);
+  return direction ? t('fan.goes', { direction: actionLabel(direction) }) : t('fan.elsewhere');
+}
+
+interface SavedProps {
+  board: PlayBoard;
+  world: World;
+  state: number;
+  own: Branch[];
+  other: Branch[];
+  costs: number[];
+}
+
+// What costs the robot something and happens after the one action but never, or less often, after the other.
+function Saved({ board, world, state, own, other, costs }: SavedProps): JSX.Element {
+  const chanceOf = (branches: Branch[], k: number): number =>
+    branches.reduce((sum, { probability, counts }) => sum + ((counts[k] ?? 0) !== 0 ? probability : 0), 0);
+  const isPushing = own.some(({ next }) => JSON.stringify(world.frame(next).robot) === JSON.stringify(world.frame(state).robot));
+  const texts = costs.flatMap((k) => {
+    const [mine, theirs] = [chanceOf(own, k), chanceOf(other, k)];
+    const counted = board.domain.counted?.[k];
+    if (!counted || mine + 1e-9 >= theirs) return [];
+    const said = { what: labelOf(counted), mine: shareText(mine), theirs: shareText(theirs) };
+    return mine === 0 ? [`${t('fan.never', said)}${isPushing ? ` ${t('fan.wall')}` : ''}`] : [t('fan.less', said)];
+  });
+  return (
+    <>
+      {texts.map((text) => (
+        <p class="cost">{text}</p>
+      ))}
+    </>
+  );
+}

@@ -13,7 +13,7 @@ export function countsOf(frames: Frame[], upTo = frames.length - 1): number[] {
   return sums;
 }
 
-const labelOf = ({ name, label }: Counted): string => capitalised(hasText(`count.${name}`) ? t(`count.${name}`) : label);
+export const labelOf = ({ name, label }: Counted): string => (hasText(`count.${name}`) ? t(`count.${name}`) : label);
 
 export const rounded = (n: number): string => String(Math.round(100 * n) / 100);
 
@@ -48,7 +48,7 @@ export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column
       <tbody>
         {rows.map(({ one, values }) => (
           <tr class={new Set(values).size > 1 ? 'differs' : undefined}>
-            <th scope="row">{labelOf(one)}</th>
+            <th scope="row">{capitalised(labelOf(one))}</th>
             {values.map((n) => (
               <td class="number">{rounded(n)}</td>
             ))}

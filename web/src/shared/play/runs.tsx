@@ -1,107 +1,151 @@
-// Some runs of a robot that chance interferes with: of different lengths, with all of their ends and what happened.
+// Some runs of a robot that chance interferes with, with all of their ends and what happened.
 import type { ComponentChildren, JSX } from 'preact';
-import { useState } from 'preact/hooks';
-import type { Board, Frame } from '../shared/board/types';
-import { Button } from '../shared/play/button';
-import { BoardInWords, BoardPane, Things } from '../shared/play/board_pane';
-import { countsOf, Ledger } from '../shared/play/ledger';
-import { LogView, useLog } from '../shared/play/log';
-import { Player, usePacedPlayback } from '../shared/play/player';
-import { StateCard, StepList } from '../shared/play/steps';
-import { t } from '../shared/texts';
-import { playedText } from '../shared/play/words';
-import { useLayoutEffect, useRef } from 'preact/hooks';
-import { playBoard, upperFirst, type Context } from './context';
-import type { Runs } from './document';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import type { Intent } from '../board/board';
+import { kMoves } from '../board/geometry';
+import type { Legend } from '../board/legend';
+import type { Frame, PlayBoard } from '../board/types';
+import { capitalised, isEnglish, t } from '../texts';
+import { BoardInWords, BoardPane, Things } from './board_pane';
+import { Button } from './button';
+import { countsOf, Ledger } from './ledger';
+import { LogView, useLog } from './log';
+import { Player, usePacedPlayback } from './player';
+import { StateCard, StepList } from './steps';
+import { playedText } from './words';
 
-const kShown = 5;
-type Run = Runs['runs'][number];
-
-// Of all runs some that stand for them, by their length: the middle one first.
-export function typical(runs: Run[]): Run[] {
-  const byLength = [...runs].sort((a, b) => a.frames.length - b.frames.length);
-  if (byLength.length <= kShown) return byLength;
-  const at = [0.5, 0.3, 0.7, 0.1, 0.9].map((share) => Math.floor(share * byLength.length));
-  return [...new Set(at)].flatMap((i) => byLength[i] ?? []);
+export interface Run {
+  frames: Frame[];
+  ended: boolean;
 }
 
-interface RunsProps extends Context {
-  board: Board;
+// With outcomes as they fell, and what happened in how many of them, in English.
+export interface Runs {
+  text: string;
+  runs: Run[];
+}
+
+const kSmallMap = 12; // columns of a map that can be drawn as a thumbnail
+const kTail = 6; // steps behind the robot that are drawn
+
+// Where the robot means to go from the cells that it came to in any run, while things are as in a frame.
+export function intentsOf(runs: Run[], { items, stations }: Frame): Intent[] {
+  const things = (frame: Frame): string => JSON.stringify([(frame.items ?? []).map(({ cell, carried }) => (carried ? null : cell)), frame.stations ?? []]);
+  const now = things({ ...(items ? { items } : {}), ...(stations ? { stations } : {}) });
+  const found = new Map<string, Intent>();
+  for (const frame of runs.flatMap(({ frames }) => frames)) {
+    const { robot, action } = frame;
+    if (robot && action && kMoves[action] && things(frame) === now) found.set(`${robot} ${action}`, { cell: robot, action });
+  }
+  return [...found.values()];
+}
+
+interface Props {
+  board: PlayBoard;
+  legend: Legend;
   shown: Runs;
-  isStill: boolean;
-  reason: ComponentChildren;
-  fan?: ComponentChildren; // what can happen where it matters
-  children?: ComponentChildren;
+  isStill?: boolean; // for paper: nothing to press
+  isOpen: boolean; // ends, and where the robot means to go, may be seen
+  primary?: boolean; // whether to play is what is to be done next
+  reason?: ComponentChildren; // beside the board
+  below?: ComponentChildren; // below the board
+  children?: ComponentChildren; // below the player
+  onSeen?: () => void; // a run has been played to its end
 }
 
-export function RunsView({ shown, ...props }: RunsProps): JSX.Element {
+export function RunsView({ shown, ...props }: Props): JSX.Element {
   const [number, setNumber] = useState(0);
-  const runs = typical(shown.runs);
+  const { runs } = shown;
   const run = runs[number];
-  return (
-    <>
-      <p>The same choice can turn out differently each time. Here are some runs of the robot, just as they happened.</p>
-      {run && <OneRun key={number} {...props} run={run} title={`Run ${number + 1} of ${runs.length}`} />}
-      <div class="ends" role="group" aria-label="Runs of the robot">
+  const title = t('watch.run', { index: number + 1, of: runs.length });
+  const choice = (
+    <div class="runs" role="group" aria-label={t('watch.ends')}>
+      <div class="ends">
         {runs.map((one, i) => (
-          <Button pressed={i === number} onClick={() => setNumber(i)}>
-            <End {...props} run={one} />
+          <Button pressed={i === number} off={!props.isOpen && i !== number} onClick={() => setNumber(i)}>
+            {props.isOpen && <End {...props} run={one} />}
             <span>
-              Run {i + 1}: {one.ended ? `${one.frames.length - 1} steps` : 'it goes on'}
+              {t('watch.try', { index: i + 1 })}
+              {props.isOpen && `: ${one.ended ? t('predict.steps', { n: one.frames.length - 1 }) : t('watch.goes_on')}`}
             </span>
           </Button>
         ))}
       </div>
-      <p class="frequencies">{upperFirst(shown.text)}.</p>
+      {props.isOpen && isEnglish() && <p class="frequencies">{capitalised(t('watch.all_runs', { what: shown.text }))}</p>}
+    </div>
+  );
+  return (
+    <>
+      <p>{t('watch.runs', { n: runs.length })}</p>
+      {run ? <OneRun key={number} {...props} runs={runs} run={run} title={title} choice={choice} /> : choice}
     </>
   );
 }
 
 // How a run ends, in small.
-function End({ board, run, domain, legend }: Omit<RunsProps, 'shown'> & { run: Run }): JSX.Element | null {
-  const placed = playBoard(domain, board);
-  if (!placed.map || (domain.width ?? 0) > 12) return null;
-  return <BoardPane board={placed} legend={legend} frames={run.frames} step={run.frames.length - 1} trail="own" isSmall isBare />;
+function End({ board, legend, run }: Pick<Props, 'board' | 'legend'> & { run: Run }): JSX.Element | null {
+  if (!board.map || (board.domain.width ?? 0) > kSmallMap) return null;
+  return <BoardPane board={board} legend={legend} frames={run.frames} step={run.frames.length - 1} trail="own" tail={kTail} isSmall isBare />;
 }
 
-function OneRun({ board, run, title, isStill, reason, fan, children, domain, legend }: Omit<RunsProps, 'shown'> & { run: Run; title: string }) {
-  const placed = playBoard(domain, board);
+interface OneRunProps extends Omit<Props, 'shown'> {
+  runs: Run[];
+  run: Run;
+  title: string;
+  choice: JSX.Element;
+}
+
+function OneRun({ board, legend, runs, run, title, choice, isStill, isOpen, primary, reason, below, children, onSeen }: OneRunProps): JSX.Element {
   const { frames } = run;
   const last = frames.length - 1;
   const playback = usePacedPlayback(last);
-  const { step } = playback;
+  const step = isStill ? last : playback.step;
   const log = useLog(t('watch.start'));
   const said = useRef(0);
   useLayoutEffect(() => {
-    if (step === said.current) return;
-    said.current = step;
-    log.say(playedText(placed, legend, { frames }, step) + (step === last && !run.ended ? ' It goes on.' : ''));
-  }, [step]);
-  const frame: Frame = frames[step] ?? board.start;
+    if (playback.step === said.current) return;
+    said.current = playback.step;
+    const goesOn = playback.step === last && !run.ended ? ` ${t('watch.run_goes_on')}` : '';
+    log.say(playedText(board, legend, { frames }, playback.step) + goesOn);
+  }, [playback.step]);
+  useLayoutEffect(() => {
+    if (playback.step === last) onSeen?.();
+  }, [playback.step, last]);
+  const frame = frames[step] ?? board.start;
+  const intents = isOpen ? intentsOf(runs, frame) : [];
   return (
-    <div class="board-screen runs">
+    <div class="board-screen">
       <div class="board-column">
-        <p class="list-title">{title}</p>
-        {placed.map ? (
-          <BoardPane board={placed} legend={legend} frames={frames} step={isStill ? last : step} trail="own" tail={6} />
+        <p class="list-title" role="status">
+          {title}
+        </p>
+        {board.map ? (
+          <BoardPane board={board} legend={legend} frames={frames} step={step} trail="own" tail={kTail} intents={intents} />
         ) : (
           <StateCard frame={frame} />
         )}
         {!isStill && <LogView log={log} />}
-        {placed.map && <Things board={placed} legend={legend} lines={['own']} walked={frames.slice(0, step + 1)} />}
-        {fan}
+        {board.map && (
+          <Things board={board} legend={legend} lines={['own']} walked={frames.slice(Math.max(0, step - kTail), step + 1)} hasIntents={intents.length > 0} />
+        )}
+        {below}
       </div>
       <div class="side">
         {reason}
-        <Ledger domain={domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, isStill ? last : step) }]} />
-        {!isStill && <Player playback={playback} primary={false} />}
+        <Ledger domain={board.domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
+        {!isStill && <Player playback={playback} primary={primary ?? false} />}
+        {choice}
         {children}
-        {placed.map ? (
-          !isStill && <BoardInWords board={placed} legend={legend} frame={frame} />
+        {board.map ? (
+          !isStill && <BoardInWords board={board} legend={legend} frame={frame} />
         ) : (
-          <StepList title={t('feedback.robot')} frames={frames.slice(0, step + 1)} />
+          <StepList title={t('feedback.robot')} frames={walked(frames, step)} />
         )}
       </div>
     </div>
   );
 }
+
+// The steps that have been made: what comes next is not told.
+export const walked = (frames: Frame[], step: number): Frame[] =>
+  frames.slice(0, step + 1).map((frame, i) => (i < step ? frame : { ...frame, action: null }));

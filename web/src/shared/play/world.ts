@@ -15,6 +15,8 @@ export interface WorldDocument {
   stations?: [number, number][];
   frames: (CompactFrame | null)[]; // null: no board leads there
   next: number[][]; // per state and action; -1: nothing happens
+  // where chance has a part: everything that can follow, per state and action
+  outcomes?: ([number, number, number[]][] | null)[][];
   end: boolean[];
   counts?: string[]; // per state a character per action: what it counts, '0' the first of `kinds`; '-': nothing happens
   kinds?: number[][];
@@ -27,6 +29,13 @@ export interface Action {
   index: number;
   name: string;
   shift: [number, number] | null; // columns and rows that it moves the robot, rows downward
+}
+
+// Something that can follow from an action, and what it counts.
+export interface Branch {
+  next: number;
+  probability: number;
+  counts: number[];
 }
 
 export const countsAt = ({ counts, kinds }: WorldDocument, state: number, action: number): number[] | null =>
@@ -90,6 +99,17 @@ export class World {
 
   isEnd(state: number): boolean {
     return this.table.end[state] ?? false;
+  }
+
+  // Everything that can follow from an action; nothing if the table does not say.
+  branches(state: number, action: number): Branch[] {
+    const all = this.table.outcomes?.[state]?.[action] ?? [];
+    return all.map(([next, probability, counts]) => ({ next, probability, counts }));
+  }
+
+  // The action that follows a frame; -1: none.
+  actionOf(frame: Frame | undefined): number {
+    return this.actions.findIndex(({ name }) => name === frame?.action);
   }
 
   // What an action counts.

@@ -20,6 +20,10 @@ struct PolicyRun {
 [[nodiscard]] std::vector<PolicyRun> several_runs(const Atlas& atlas, DemoIndex start, std::size_t n,
                                                   RandomStream& random);
 
+/// Some of the runs that stand for all of them, by their length in steps: the middle one first, then shorter and longer
+/// ones in turn. Quantiles 0.5, 0.3, 0.7, 0.1 and 0.9; fewer if there are fewer runs.
+[[nodiscard]] std::vector<PolicyRun> typical_runs(std::vector<PolicyRun> runs);
+
 /// How often things happened that chance decides: "in 10 runs: falling into the water in 3, coming home in 7".
 /// Things that happened in every run or in none are left out; if nothing is left, "the same path each time".
 [[nodiscard]] std::string runs_in_words(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs);

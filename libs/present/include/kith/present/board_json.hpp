@@ -36,8 +36,8 @@ namespace kith {
 [[nodiscard]] Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces);
 /// [{"feature", "reference", "low", "high", "text"}]: ends are [numerator, denominator] or null; bracket_in_words().
 [[nodiscard]] Json brackets_json(const Domain& domain, std::span<const Bracket> brackets);
-/// {"text", "runs": [{"frames", "ended"}]}: several runs and what happened in how many of them; null if there are none,
-/// as where nothing is left to chance.
+/// {"text", "runs": [{"frames", "ended"}]}: what happened in how many of all runs, and typical_runs(); null if there
+/// are none, as where nothing is left to chance.
 [[nodiscard]] Json runs_json(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs);
 
 }  // namespace kith

@@ -18,7 +18,8 @@ namespace kith {
 /// The moves of a world and what they count, for pages on which somebody drives the robot:
 ///   {"actions": [{"name", "label", "dx", "dy"}], "items": [name], "stations": [[column, row]], "frames": [FRAME],
 ///    "next": [[state | -1 per action]], "end": [bool], "counts": [text],
-///    "kinds": [[count per feature]], "chance": bool, "may_repeat": bool}
+///    "kinds": [[count per feature]], "chance": bool, "may_repeat": bool,
+///    "outcomes": [[[[next, probability, counts], ...] | null per action]], only where chance has a part}
 /// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
 /// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
 /// the likeliest outcome that changes the state, and counts are its: a character per action, '0' for the first of
@@ -28,7 +29,7 @@ namespace kith {
 [[nodiscard]] Json move_table_json(const Domain& domain, MdpIndex world);
 
 /// The same with what a page needs to judge answers itself: nothing more in exact domains; in others also
-///   {"outcomes": [[[[next, probability, counts], ...] | null per action]], "robot": [its action],
+///   {"outcomes", "robot": [its action],
 ///    "ahead": [feature counts of the robot from there on, in units of 1 / Domain::count_scale()]}
 /// of every state that does not end.
 [[nodiscard]] Json judged_table_json(const Atlas& atlas, MdpIndex world);
