@@ -277,6 +277,17 @@ export function screenTests(setting) {
       });
     });
 
+    it('says what can follow from both moves at the fork where chance has a part', async () => {
+      await withViews(setting, async ({ views, mock, page }) => {
+        await show({ mock, page }, views['feedback-chance']);
+        await page.waitForSelector('.fan');
+        assert.equal(await page.locator('.fan .board').count(), 2);
+        assert.match(await page.textContent('.fan'), /The robot tries to go .*2 of 3 tries.*You expected it to go .*cannot end in .*1 of 3 tries/s);
+        await show({ mock, page }, views['feedback-wrong']);
+        assert.equal(await page.locator('.fan').count(), 0);
+      });
+    });
+
     it('says where a robot stops that has not finished its job, and names only keys that do something', async () => {
       await withViews(setting, async ({ views, mock, person, page }) => {
         const { board } = views['predict-large'].predict;

@@ -168,6 +168,17 @@ export function makeViews(lesson, now = Date.now()) {
   const slip = [{ ...from, action: from.action === 'left' ? 'right' : 'left' }, { ...straight[1], action: null }];
   const runs = { text: 'stopping at the charger in 1 of 2 runs; a different path in each of 2 runs', runs: [{ frames: slip, ended: true }, { frames: straight, ended: true }] };
   views['watch-runs'] = { ...views.watch, watch: { ...views.watch.watch, runs } };
+  views['feedback-chance'] = structuredClone(views['feedback-wrong']);
+  const [slipped] = views['feedback-chance'].feedback.tests;
+  const slippery = makeWorld(slipped.board.domain, slipped.board, 'slippery');
+  const { table } = slippery;
+  const own = table.actions.findIndex(({ name }) => name === slipped.robot[slipped.differs_at].action);
+  const counts = (slipped.board.domain.counted ?? []).map(() => 0);
+  table.outcomes = table.next.map((row, s) =>
+    row.map((to, action) => to < 0 ? null : [[to, 2 / 3, counts], [s, 1 / 3, counts.map((_, k) => Number(k === 0 && action !== own))]]),
+  );
+  slipped.chance = { world: 'slippery', state: 0, spared: [0] };
+  room.worlds.set('slippery', slippery);
   const { board: small } = views.predict.predict;
   room.worlds.set('handling', { table: handlingWorld(small, false) });
   room.worlds.set('endless', { table: handlingWorld(small, true) });
