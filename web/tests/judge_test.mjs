@@ -45,7 +45,7 @@ it('a page judges answers as kith does', async () => {
     }
     seen.set(domain, sum);
   }
-  assert.ok(firstMoves.right > 50 && firstMoves.wrong > 50, JSON.stringify(firstMoves));
+  assert.ok(firstMoves.right > 30 && firstMoves.wrong > 30, JSON.stringify(firstMoves));
   assert.ok(seen.size >= 9, `domains: ${[...seen.keys()]}`);
   const all = [...seen.values()].reduce((n, { right, wrong, short }) => n + right + wrong + short, 0);
   assert.ok(all >= 20_000, `${all} paths`);

@@ -84,8 +84,8 @@ TEST(Inspect, ShowsADomainThatCannotBeTaught) {
   std::ofstream{scratch / "d.toml"} << steps_domain("\"S..G\"");
   const auto ran = run_kith({"inspect", scratch / "d.toml"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Map of world 0"), HasSubstr("Reward"), HasSubstr("The robot's policy in world 0"),
-                             HasSubstr("from the start: right x3")));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Map of world 0"), HasSubstr("Reward"),
+                             HasSubstr("The robot's policy in world 0"), HasSubstr("from the start: right x3")));
   EXPECT_THAT(ran.err, HasSubstr("with a single feature there is nothing to weigh"));
   const auto document = Json::parse(run_kith({"inspect", scratch / "d.toml", "--json"}).out);
   EXPECT_EQ(document.at("schema"), "kith.inspect/1");

@@ -1,4 +1,3 @@
-// How terrains and things are drawn, the same in pictures and on pages: web/src/shared/board/drawing.json.
 #pragma once
 
 #include <array>
@@ -6,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+// How terrains and things are drawn, the same in pictures and on pages: web/src/shared/board/drawing.json.
 namespace kith::detail {
 
 extern const std::string_view kDrawingText;

@@ -182,12 +182,21 @@ void panel(Svg& svg, const RegionPicture& picture, std::size_t across, std::size
   svg.add("circle", {{"cx", "0"}, {"cy", "0"}, {"r", svg_number(radius)}, {"fill", "#fafbfc"}, {"stroke", "#d5d9de"}});
   svg.line(-radius, 0, radius, 0, {{"stroke", "#d5d9de"}});
   svg.line(0, -radius, 0, radius, {{"stroke", "#d5d9de"}});
-  const auto dots = [&](const Cone& cone, const std::string& color) {
+  const auto end = [&](double x, double y, const char* sign) {
+    constexpr double kInside = 9.0;
+    svg.text(x * (radius - kInside), y * (radius - kInside) + 4, sign,
+             {{"text-anchor", "middle"}, {"font-size", "12"}, {"fill", kMuted}});
+  };
+  end(1, 0, "+");
+  end(-1, 0, "\u2212");
+  end(0, -1, "+");
+  end(0, 1, "\u2212");
+  const auto dots = [&](const Cone& cone, const std::string& color, double radius_of_dots) {
     const auto points = ConeSampler{cone}.cover(kPoints);
     std::string path;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
-      path += fmt::format("M{} {}h0", svg_number(radius * points(static_cast<Eigen::Index>(across), i)),
-                          svg_number(-radius * points(static_cast<Eigen::Index>(up), i)));
+      path += fmt::format("M{} {}h0", svg_number(radius_of_dots * points(static_cast<Eigen::Index>(across), i)),
+                          svg_number(-radius_of_dots * points(static_cast<Eigen::Index>(up), i)));
     }
     svg.add("path", {{"d", path},
                      {"stroke", color},
@@ -195,8 +204,10 @@ void panel(Svg& svg, const RegionPicture& picture, std::size_t across, std::size
                      {"stroke-linecap", "round"},
                      {"stroke-opacity", "0.7"}});
   };
-  dots(picture.prior, "#b9cbdd");
-  dots(picture.region, kDark);
+  // With two features both are parts of the circle, and the robot's own would lie on a small one: it is drawn outside.
+  constexpr double kOutside = 1.09;
+  dots(picture.prior, "#b9cbdd", radius);
+  dots(picture.region, kDark, picture.features.size() == 2 ? kOutside * radius : radius);
   double length = 0.0;
   for (const auto entry : picture.robot) length += static_cast<double>(entry) * static_cast<double>(entry);
   const double scale = radius / std::sqrt(length);
