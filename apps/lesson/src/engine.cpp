@@ -4,10 +4,11 @@
 //   {"do": "ask", "type", "body", "now_us"}                                                 a command of the person
 //   {"do": "tick", "now_us"}                                                                what is due by the clock
 //   {"do": "teach", "now_us"}                                                               the next lesson
-//   {"do": "world", "key"}, {"do": "texts"}, {"do": "digest"}                               see docs/lesson-files.md
+//   {"do": "world", "key"}, {"do": "texts"}, {"do": "seal"}         a table of moves, texts, a digest of all events
 //
 // All but the last three reply {"events": those that happened, "view", "due_us" or null, "teaching": whether a lesson
-// is waited for, "refusal" or null}. Whatever goes wrong is {"error": text}.
+// is waited for, "lesson": {"seq", "demos", "tests"} if one was chosen, "refusal" or null}. Whatever goes wrong is
+// {"error": text}.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -17,6 +18,7 @@
 #include <string>
 
 #include "kith/core/error.hpp"
+#include "kith/live/lesson_log.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/study/study_file.hpp"
@@ -37,7 +39,7 @@ class Engine {
     if (!room_) throw std::logic_error{"nothing is open"};
     if (what == "world") return world(request.at("key").get<std::string>());
     if (what == "texts") return language_json(*study_);
-    if (what == "digest") return {{"digest", room_->digest()}};
+    if (what == "seal") return {{"seal", seal_}};
     now_us_ = std::max(now_us_, request.at("now_us").get<std::int64_t>());
     if (what == "ask") return ask(request.at("type").get<std::string>(), request.value("body", Json::object()));
     if (what == "tick") return state();
@@ -58,7 +60,8 @@ class Engine {
     cache_ = std::make_unique<TeachingCache>(study_->atlas);
     room_.emplace(study_, room_setup(request.at("setup")), *cache_);
     now_us_ = request.at("now_us").get<std::int64_t>();
-    for (const auto& event : request.value("events", Json::array())) room_->apply(room_event(event), *cache_);
+    for (const auto& event : request.value("events", Json::array())) happen(room_event(event));
+    happened_ = Json::array();
     if (room_->seq() == 0) decide({"server", "join", {{"seat", 1}}, {}});
     decide({"server", "present", {{"seat", 1}}, {}});
     return state();
@@ -74,7 +77,11 @@ class Engine {
   Json teach() {
     if (const auto task = room_->teaching()) {
       const auto lesson = task->run(*cache_);
-      happen(room_->taught(lesson, now_us_), &lesson);
+      const auto event = room_->taught(lesson, now_us_);
+      happen(event, &lesson);
+      auto reply = state();
+      reply["lesson"] = lesson_content(lesson, event.seq);
+      return reply;
     }
     return state();
   }
@@ -87,6 +94,7 @@ class Engine {
 
   void happen(const RoomEvent& event, const TaughtLesson* lesson = nullptr) {
     room_->apply(event, *cache_, lesson);
+    seal_ = sealed(seal_, event);
     happened_.push_back(to_json(event));
   }
 
@@ -115,6 +123,7 @@ class Engine {
   std::optional<Room> room_;
   std::int64_t now_us_ = 0;
   Json happened_ = Json::array();
+  std::string seal_;
 };
 
 }  // namespace

@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "hosted_room.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/hosting/event_file.hpp"
+#include "kith/live/lesson_log.hpp"
 #include "kith/live/room.hpp"
 
 namespace kith {
@@ -23,8 +25,9 @@ struct LessonLog {
   std::map<std::string, std::string> inputs;
   RoomSetup setup;
   std::vector<RoomEvent> events;
+  std::map<std::uint64_t, Json> lessons;  // lesson_content() by number of the event
   std::string study;
-  std::string digest;
+  std::string seal;
 };
 
 [[noreturn]] void refuse_log(const std::string& name, const std::string& why) {
@@ -49,7 +52,8 @@ LessonLog parsed_log(std::string_view text, const std::string& name) {
     log.setup = room_setup(json.at("setup"));
     for (const auto& event : json.at("events")) log.events.push_back(room_event(event));
     log.study = json.at("study").get<std::string>();
-    log.digest = json.at("digest").get<std::string>();
+    for (const auto& lesson : json.at("lessons")) log.lessons[lesson.at("seq").get<std::uint64_t>()] = lesson;
+    log.seal = json.at("seal").get<std::string>();
     return log;
   } catch (const Json::parse_error& error) {
     refuse_log(name, "the file was cut off or changed: it is no JSON from byte " + std::to_string(error.byte) + " on");
@@ -61,21 +65,47 @@ LessonLog parsed_log(std::string_view text, const std::string& name) {
   }
 }
 
-void check_by_replay(const LessonLog& log, const SessionStudy& session, const std::string& name) {
+// The lesson that this kith chooses where the log has one. A page's mathematical functions round otherwise than ours,
+// so beliefs may differ in their last digits, and lessons are compared by what they show and ask.
+TaughtLesson same_lesson(const LessonLog& log, const RoomEvent& event, const Room& room, TeachingCache& cache,
+                         const std::string& name) {
+  const auto task = room.teaching();
+  if (!task) refuse_change(name, "event " + std::to_string(event.seq) + ": no lesson is chosen here");
+  auto lesson = task->run(cache);
+  const auto known = log.lessons.find(event.seq);
+  if (known == log.lessons.end() || known->second != lesson_content(lesson, event.seq)) {
+    refuse_change(name, "event " + std::to_string(event.seq) + ": the teacher chooses another lesson");
+  }
+  return lesson;
+}
+
+// The events as they happen here.
+std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& session, const std::string& name) {
   if (session.digest != log.study) refuse_change(name, "its study is not the one that it names");
+  std::string seal;
+  for (const auto& event : log.events) seal = sealed(seal, event);
+  if (seal != log.seal) refuse_change(name, "its seal is not that of its events");
   TeachingCache cache{session.study->atlas};
+  std::vector<RoomEvent> events;
   std::uint64_t at = 0;
   try {
     Room room{session.study, log.setup, cache};
     for (const auto& event : log.events) {
       at = event.seq;
-      room.apply(event, cache);
+      if (event.get<happening::LessonChosen>() != nullptr) {
+        const auto lesson = same_lesson(log, event, room, cache, name);
+        events.push_back(room.taught(lesson, event.at_us));
+        room.apply(events.back(), cache, &lesson);
+      } else {
+        events.push_back(event);
+        room.apply(event, cache);
+      }
     }
-    if (room.digest() != log.digest) refuse_change(name, "its end is another one");
   } catch (const Error& error) {
     if (!error.diagnostics().empty() && error.diagnostics().front().id == "E1622") throw;
     refuse_change(name, "event " + std::to_string(at) + ": " + error.what());
   }
+  return events;
 }
 
 std::vector<StoredEvent> events_of(EventFile& file, std::int64_t room) {
@@ -88,12 +118,7 @@ StoreBatch batch_of(const LessonLog& log, std::int64_t number, std::int64_t now_
   StoreBatch batch;
   batch.rooms.push_back({number, to_json(log.setup).dump(), log.events.empty() ? now_us : log.events.front().at_us});
   for (const auto& event : log.events) {
-    batch.events.push_back({.room = number,
-                            .seq = event.seq,
-                            .at_us = event.at_us,
-                            .actor = event.actor,
-                            .type = event.type,
-                            .json = event.body.dump()});
+    batch.events.push_back(to_stored(number, event));
   }
   return batch;
 }
@@ -123,9 +148,9 @@ Json lesson_document(const SessionStudy& session, const std::string& program) {
 
 ImportedLog import_lesson_log(const std::filesystem::path& folder, std::string_view text, const std::string& name,
                               const std::string& program, std::int64_t now_us) {
-  const auto log = parsed_log(text, name);
+  auto log = parsed_log(text, name);
   const auto session = restore_session_study(log.inputs);
-  check_by_replay(log, session, name);
+  log.events = replayed(log, session, name);
 
   std::filesystem::create_directories(folder);
   const auto lock = FolderLock::try_acquire(folder);

@@ -1,10 +1,18 @@
 // The engine of a lesson file: WebAssembly in a worker, both packed into the page.
 
+// What a lesson shows and asks, by numbers.
+export interface Lesson {
+  seq: number; // of its event
+  demos: number[];
+  tests: number[];
+}
+
 export interface State {
   events: unknown[];
   view: Record<string, unknown>;
   due_us: number | null;
   teaching: boolean;
+  lesson?: Lesson; // if one was chosen
   refusal: { reason: string; text: string } | null;
 }
 

@@ -42,10 +42,10 @@ export class LocalServer implements Transport {
     clearTimeout(this.timer);
   }
 
-  // All that has happened, with a digest of what it led to.
-  async export(): Promise<Log & { digest: string; inputs: LessonFile['inputs'] }> {
-    const { digest } = await this.engine.ask<{ digest: string }>({ do: 'digest' });
-    return { ...this.log, digest, inputs: this.file.inputs };
+  // All that has happened, sealed.
+  async export(): Promise<Log & { seal: string; inputs: LessonFile['inputs'] }> {
+    const { seal } = await this.engine.ask<{ seal: string }>({ do: 'seal' });
+    return { ...this.log, seal, inputs: this.file.inputs };
   }
 
   open(): Pipe {
@@ -90,6 +90,7 @@ export class LocalServer implements Transport {
   // What the engine says now becomes what is kept and what is due.
   private take(state: State): void {
     this.state = state;
+    if (state.lesson) this.log.lessons.push(state.lesson);
     if (state.events.length > 0) {
       this.log.events.push(...state.events);
       const isKept = this.isStopped || keepLog(this.file, this.log);

@@ -1,6 +1,7 @@
 // What has happened in a lesson file. It survives a reload where the browser lets pages keep things.
 import { uuid } from '../shared/uuid';
 import type { LessonFile } from './document';
+import type { Lesson } from './engine';
 
 export interface Log {
   schema: 'kith.lesson-log/1';
@@ -8,6 +9,7 @@ export interface Log {
   study: string; // digest of its inputs
   setup: Record<string, unknown>;
   events: unknown[];
+  lessons: Lesson[];
   messages: string[]; // of the page that were taken in
 }
 
@@ -15,7 +17,7 @@ const place = (file: LessonFile): string => `kith.lesson.${file.digest}`;
 
 export function emptyLog(file: LessonFile): Log {
   const setup = { ...file.setup, id: uuid() };
-  return { schema: 'kith.lesson-log/1', kith: file.kith, study: file.digest, setup, events: [], messages: [] };
+  return { schema: 'kith.lesson-log/1', kith: file.kith, study: file.digest, setup, events: [], lessons: [], messages: [] };
 }
 
 // Nothing if there is none, or it is one that cannot be gone on with.

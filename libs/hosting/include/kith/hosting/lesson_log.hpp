@@ -21,13 +21,14 @@ namespace kith {
 
 /// What was added to a session.
 struct ImportedLog {
-  std::string room;  ///< Its id.
+  std::string room;        ///< Its id.
   std::size_t events = 0;  ///< That the session did not have yet.
 };
 
 /// Adds the log of a lesson file (schema kith.lesson-log/1) to the folder of a session as one more room; makes the
-/// folder if there is none. Of a log that goes on from one that is there, what is new is added. The log is replayed first: every lesson must be the one that this kith chooses, and the end
-/// that which the log names, so that a log that was edited is noticed.
+/// folder if there is none. Of a log that goes on from one that is there, what is new is added. The log is replayed
+/// first: every lesson must show and ask what this kith would, and the seal fit the events, so that a log that was
+/// edited is noticed.
 /// @param name  of the log, for messages.
 /// @throws kith::Error kInvalidInput E1621 (no such log, or it was cut off), kMismatch E1622 (it was changed, or is of
 /// another version), kUsage E1623 (the folder has a log of this person that went another way); as EventFile::open().

@@ -391,16 +391,13 @@ struct RoomEvent {
   friend bool operator==(const RoomEvent&, const RoomEvent&) = default;
 };
 
-/// What somebody asks for. Types of seats and facilitators are those of
-/// docs/live-protocol.md; those of the server:
-///   join {seat?}           takes a free seat: that one, or any; the event
-///   tells which group {room, ...}      on a waiting list: what
-///   Room::next_group() plans is done; the body is that of the event call
-///   {seat, ...}       on a waiting list: the person whom Room::next_for()
-///   names is called; the body is that of
+/// What somebody asks for. Types of seats and facilitators are those of docs/live-protocol.md; those of the server:
+///   join {seat?}           takes a free seat: that one, or any; the event tells which
+///   group {room, ...}      on a waiting list: what Room::next_group() plans is done; the body is that of the event
+///   call {seat, ...}       on a waiting list: the person whom Room::next_for() names is called; the body is that of
 ///                          the event
-///   seat {member, ...}     gives the place of a member to somebody from a
-///   waiting list, see Room::person_for() away {seat}, present {seat}
+///   seat {member, ...}     gives the place of a member to somebody from a waiting list, see Room::person_for()
+///   away {seat}, present {seat}
 struct RoomCommand {
   std::string actor;
   std::string type;
