@@ -10,7 +10,7 @@
 
 namespace kith {
 
-using namespace happening;
+using namespace happening;  // NOLINT(google-build-using-namespace): every event is named here
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 namespace kith {
 
-using namespace happening;
+using namespace happening;  // NOLINT(google-build-using-namespace): every event is named here
 
 namespace {
 
