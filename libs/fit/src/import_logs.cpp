@@ -35,12 +35,12 @@ void append(ResponseLogs& to, ResponseLogs from, const std::string& prefix) {
   if (to.policy != from.policy) to.policy.clear();  // of different domains
 }
 
-void add(ImportedLogs& all, const fs::path& path, AnswerDetail detail, const std::string& prefix) {
+void add(ImportedLogs& all, const fs::path& path, AnswerDetail detail, PeopleRead people, const std::string& prefix) {
   std::error_code ignored;
   const bool folder = fs::is_directory(path, ignored);
   const auto responses = folder ? path / kResponses2021 : path;
   if (folder && !fs::exists(responses, ignored)) {
-    append(all.logs, import_run_folder(path, detail), prefix);
+    append(all.logs, import_run_folder(path, detail, {}, people), prefix);
     return;
   }
   const auto columns = read_csv_header(read_table_text(responses), responses.string());
@@ -61,10 +61,10 @@ void add(ImportedLogs& all, const fs::path& path, AnswerDetail detail, const std
 
 }  // namespace
 
-ImportedLogs import_logs(const std::vector<fs::path>& paths, AnswerDetail detail) {
+ImportedLogs import_logs(const std::vector<fs::path>& paths, AnswerDetail detail, PeopleRead people) {
   ImportedLogs all;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    add(all, paths[i], detail, paths.size() == 1 ? "" : std::to_string(i + 1) + ":");
+    add(all, paths[i], detail, people, paths.size() == 1 ? "" : std::to_string(i + 1) + ":");
   }
   if (!all.logs.people.empty() && !all.accuracy.empty()) {
     throw Error{{detail::fault("E0703", "logs with and without what people saw cannot be fitted together", paths.back(),

@@ -38,13 +38,13 @@ struct Seat {
 struct Shown {
   std::int64_t component = 1;
   std::vector<HalfSpace> half_spaces;
+  std::vector<DemoIndex> demonstrations;
 };
 
 struct Answered {
   std::int64_t test = 0;
   std::int64_t component = 1;
-  std::size_t mdp = 0;
-  std::size_t start = 0;
+  DemoIndex demo;
   bool correct = false;
   std::optional<IntegerVector> answer{};
   std::vector<HalfSpace> covered;
@@ -53,13 +53,14 @@ struct Answered {
 
 class RunImport {
  public:
-  RunImport(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds)
+  RunImport(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds, PeopleRead people)
       : tables_{folder / "tables"},
         folder_{folder},
         detail_{detail},
+        any_kind_{people == PeopleRead::kAnyKind},
         run_{published(folder)},
         study_{study_of(folder, kinds)},
-        atlas_{*study_.domain} {}
+        atlas_{std::make_shared<const Atlas>(*study_.domain)} {}
 
   ResponseLogs run() {
     check_study();
@@ -73,7 +74,7 @@ class RunImport {
     }
     for (const auto& [seat, type] : types_) add_person(seat, type);
     add_notes();
-    logs_.policy = atlas_.policy_bec_half_spaces();
+    logs_.policy = atlas_->policy_bec_half_spaces();
     return std::move(logs_);
   }
 
@@ -100,7 +101,7 @@ class RunImport {
 
   void check_study() {
     const auto study_file = folder_ / "inputs" / "study.toml";
-    if (!atlas_.is_tabulated()) {
+    if (!atlas_->is_tabulated()) {
       throw Error{{detail::fault("E0711",
                                  "people are fitted in exact domains of three features only, where all that they could "
                                  "answer is known",
@@ -118,12 +119,12 @@ class RunImport {
                                    study_file, 0, "fit a run without stop.release")}};
       }
       for (const auto& type : variant.learner_types) {
-        if (type.model->kind == bayesian_model().kind) continue;
+        if (any_kind_ || type.model->kind == bayesian_model().kind) continue;
         throw Error{{detail::fault("E0712",
                                    "learners of type '" + std::string{type.letter} + "' are of the kind '" +
                                        std::string{type.model->kind} +
-                                       "'; only the parameters of the kind 'bayesian' can be fitted",
-                                   study_file, 0)}};
+                                       "'; the parameters of populations are fitted for the kind 'bayesian' only",
+                                   study_file, 0, "use --method kinds")}};
       }
       if (variant.record == RecordLevel::kTeam) {
         throw Error{{detail::fault("E0705", "only teams were recorded, so there are no answers to fit to", study_file,
@@ -133,14 +134,27 @@ class RunImport {
     addresses_ = team_addresses(*study_.study);
   }
 
+  // The parameters that all kinds have.
+  [[nodiscard]] static ParameterValues as_bayesian(const ParameterValues& parameters) {
+    ParameterValues values{bayesian_model().parameters};
+    for (const auto& one : values.declared()) {
+      for (std::size_t i = 0; i < parameters.declared().size(); ++i) {
+        if (parameters.declared()[i].name == one.name) values.set(one.name, parameters.values()[i]);
+      }
+    }
+    return values;
+  }
+
   void add_models() {
     for (const auto& variant : study_.study->variants) {
       auto& of_type = models_of_.emplace_back();
       for (const auto& type : variant.learner_types) {
         of_type[type.letter] = logs_.models.size();
-        const auto prior = type.prior ? Cone::intersection(*type.prior) : std::optional{atlas_.prior_cone()};
-        logs_.models.push_back(
-            {.parameters = type.parameters, .prior = prior.value(), .form = variant.teaching.likelihood});
+        const auto prior = type.prior ? Cone::intersection(*type.prior) : std::optional{atlas_->prior_cone()};
+        logs_.models.push_back({.parameters = as_bayesian(type.parameters),
+                                .prior = prior.value(),
+                                .form = variant.teaching.likelihood,
+                                .atlas = atlas_});
       }
     }
   }
@@ -192,13 +206,15 @@ class RunImport {
     read_table(
         file,
         {needed("team", ColumnType::kInteger), needed("period", ColumnType::kInteger),
-         needed("kc", ColumnType::kInteger), needed("constraint", ColumnType::kText)},
+         needed("kc", ColumnType::kInteger), needed("mdp", ColumnType::kInteger), needed("start", ColumnType::kInteger),
+         needed("constraint", ColumnType::kText)},
         {{.name = "member", .type = ColumnType::kInteger}}, logs_.notes, [&](const OpenRow& row) {
           if (!check_team(file, row)) return;
           auto& shown = shown_[{*row.integer("team"), row.integer("member").value_or(0)}][*row.integer("period")];
           shown.component = *row.integer("kc");
           const auto conveyed = half_spaces(file, row, "constraint");
           shown.half_spaces.insert(shown.half_spaces.end(), conveyed.begin(), conveyed.end());
+          if (const auto demo = start_of(file, row)) shown.demonstrations.push_back(*demo);
         });
   }
 
@@ -219,13 +235,9 @@ class RunImport {
         });
   }
 
-  std::optional<Answered> response_of(const std::string& file, const OpenRow& row) {
-    Answered answered{.test = *row.integer("test"),
-                      .component = *row.integer("kc"),
-                      .correct = *row.boolean("correct"),
-                      .covered = half_spaces(file, row, "covered"),
-                      .line = row.line()};
-    const auto& domain = atlas_.domain();
+  // Where a demonstration or a test of a row starts, or nothing after complaining.
+  std::optional<DemoIndex> start_of(const std::string& file, const OpenRow& row) {
+    const auto& domain = atlas_->domain();
     const auto mdp = *row.integer("mdp");
     const auto start = *row.integer("start");
     if (mdp < 0 || static_cast<std::size_t>(mdp) >= domain.num_mdps() || start < 0 ||
@@ -235,8 +247,18 @@ class RunImport {
           "there is no start " + std::to_string(start) + " of MDP " + std::to_string(mdp) + " in inputs/domain.toml");
       return std::nullopt;
     }
-    answered.mdp = static_cast<std::size_t>(mdp);
-    answered.start = static_cast<std::size_t>(start);
+    return atlas_->index({MdpIndex{static_cast<std::size_t>(mdp)}, StateIndex{static_cast<std::size_t>(start)}});
+  }
+
+  std::optional<Answered> response_of(const std::string& file, const OpenRow& row) {
+    const auto demo = start_of(file, row);
+    if (!demo) return std::nullopt;
+    Answered answered{.test = *row.integer("test"),
+                      .component = *row.integer("kc"),
+                      .demo = *demo,
+                      .correct = *row.boolean("correct"),
+                      .covered = half_spaces(file, row, "covered"),
+                      .line = row.line()};
     if (const auto text = row.text("answer"); text && !text->empty()) {
       answered.answer = detail::parse_vector(*text);
       if (!answered.answer) {
@@ -259,12 +281,13 @@ class RunImport {
                         : together != shown_.end() ? together->second
                                                    : std::map<std::int64_t, Shown>{};
     auto& answers = answers_[seat];
+    const auto& pace = study_.study->variants[variant].pace;
     std::set<std::int64_t> periods;
     for (const auto& [period, one] : shown) periods.insert(period);
     for (const auto& [period, list] : answers) periods.insert(period);
     for (const auto period : periods) {
       const auto it = shown.find(period);
-      person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], person));
+      person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], pace, person));
     }
     // There is no final examination: the last answers stand in for it.
     constexpr std::size_t kFinal = 6;
@@ -275,15 +298,17 @@ class RunImport {
     logs_.people.push_back(std::move(person));
   }
 
-  LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, PersonLog& person) {
+  LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, const Pace& pace, PersonLog& person) {
     LoggedPeriod period;
     period.component = static_cast<std::size_t>(answers.empty() ? shown.component : answers.front().component);
     period.conveyed = shown.half_spaces;
+    period.shown = shown.demonstrations;
+    period.minutes = minutes_of(pace, shown.demonstrations.size(), answers.size());
     std::sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.test < b.test; });
     std::set<HalfSpace> possible;
     for (const auto& answered : answers) {
-      const auto demo = atlas_.index({MdpIndex{answered.mdp}, StateIndex{answered.start}});
-      const auto facets = atlas_.finite_region(demo).facets();
+      const auto demo = answered.demo;
+      const auto facets = atlas_->finite_region(demo).facets();
       possible.insert(facets.begin(), facets.end());
       period.all_correct = period.all_correct && answered.correct;
       for (const auto& half_space : answered.covered) {  // once, however many test sets examined it: as Session does
@@ -305,7 +330,8 @@ class RunImport {
       ++num_unanswered_;
       return;
     }
-    const auto coverage = atlas_.coverage_set(demo);
+    period.given.push_back({demo, *answered.answer});
+    const auto coverage = atlas_->coverage_set(demo);
     const bool known = std::find(coverage.begin(), coverage.end(), *answered.answer) != coverage.end();
     if (detail_ == AnswerDetail::kPath && known) {
       AnswerRegion region;
@@ -317,13 +343,13 @@ class RunImport {
       return;
     }
     if (detail_ == AnswerDetail::kPath) ++num_unknown_paths_;
-    period.answers.push_back({atlas_.constraints().half_spaces(atlas_.robot_cell_facets(demo)), answered.correct});
+    period.answers.push_back({atlas_->constraints().half_spaces(atlas_->robot_cell_facets(demo)), answered.correct});
     period.chance /= 2.0;
   }
 
   void add_notes() {
     const auto responses = tables_ / "responses.csv";
-    if (num_unknown_paths_ > 0) {
+    if (num_unknown_paths_ > 0 && !any_kind_) {
       logs_.notes.push_back(detail::note("W0706",
                                          std::to_string(num_unknown_paths_) +
                                              " answers are paths that are best for nobody; they count by their verdict",
@@ -347,9 +373,10 @@ class RunImport {
   fs::path tables_;
   fs::path folder_;
   AnswerDetail detail_;
+  bool any_kind_;
   PublishedRun run_;
   StudyReading study_;
-  Atlas atlas_;
+  std::shared_ptr<const Atlas> atlas_;
   std::vector<TeamAddress> addresses_;
   std::vector<std::map<char, std::size_t>> models_of_;  // per variant
   std::map<Seat, std::string> types_;
@@ -363,8 +390,9 @@ class RunImport {
 
 }  // namespace
 
-ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds) {
-  return RunImport{folder, detail, kinds}.run();
+ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds,
+                               PeopleRead people) {
+  return RunImport{folder, detail, kinds, people}.run();
 }
 
 }  // namespace kith

@@ -18,6 +18,7 @@ struct ImportedLogs {
 /// trial (import_trials()), and the folder or the response table of the 2021 study (read_lee2021_responses()). With
 /// more than one log, people are named after it: "2:7/1".
 /// @throws kith::Error as the importers do; E0703 for anything else, and if data with and without exposures are mixed.
-[[nodiscard]] ImportedLogs import_logs(const std::vector<std::filesystem::path>& paths, AnswerDetail detail);
+[[nodiscard]] ImportedLogs import_logs(const std::vector<std::filesystem::path>& paths, AnswerDetail detail,
+                                       PeopleRead people = PeopleRead::kBayesian);
 
 }  // namespace kith

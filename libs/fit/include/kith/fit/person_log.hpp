@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ struct LoggedPeriod {
   bool all_correct = true;            ///< Which gain the feedback brings.
   bool feedback = true;               ///< Whether the person heard which answers were right.
   std::vector<HalfSpace> taught;      ///< By the feedback, at the changed ability.
+  // What people of other kinds need besides; see fit_kinds(). Only from run folders.
+  std::vector<DemoIndex> shown;    ///< The demonstrations themselves.
+  std::vector<GivenAnswer> given;  ///< The paths that were answered.
+  double minutes = 0.0;            ///< How long it took.
 };
 
 /// What is taken for known about a learner of the model "bayesian": all but the parameters that are fitted.
@@ -28,6 +33,7 @@ struct KnownLearner {
   ParameterValues parameters{bayesian_model().parameters};  ///< Of these, ability and gains are not used.
   Cone prior;                                               ///< Where the person's belief starts, uniformly.
   LikelihoodForm form = LikelihoodForm::kDiscontinuous;
+  std::shared_ptr<const Atlas> atlas{};  ///< Of the domain; null if only constraints are known of it.
 };
 
 /// One person's sequence, and what a recovery test knows besides.
@@ -48,6 +54,12 @@ struct ResponseLogs {
   std::vector<KnownLearner> models;
   std::vector<HalfSpace> policy;  ///< The behaviour equivalence class of the robot's policy; empty: unknown.
   std::vector<Diagnostic> notes;  ///< Warnings: what was repaired, left out or doubtful.
+};
+
+/// Which people a run folder may have.
+enum class PeopleRead {
+  kBayesian,  ///< Of the model "bayesian" only: what fit_learners() takes.
+  kAnyKind,   ///< Whoever they are: what fit_kinds() takes.
 };
 
 /// How much of an answer is used.
