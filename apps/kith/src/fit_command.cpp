@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -13,6 +14,8 @@
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
+#include "kith/fit/kinds_fit.hpp"
+#include "kith/fit/predict_answers.hpp"
 #include "kith/present/json.hpp"
 #include "page.hpp"
 #include "planning_input.hpp"
@@ -31,6 +34,7 @@ struct FitCommandOptions {
   std::size_t replicates = 2;    ///< Runs of the filter per person.
   std::uint64_t seed = 1;
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
+  bool predict = false;     ///< Compare models by how well they predict the next answer.
   bool yes = false;         ///< Replace an existing file.
   ProgressMode progress = ProgressMode::kAuto;
 };
@@ -79,7 +83,7 @@ std::optional<std::vector<GridSearchGroup>> search_grid(const ResponseLogs& logs
 void declare(OptionList& list, FitCommandOptions& options) {
   list.texts("logs", options.logs, "LOGS", "Run folders, tables with a row per trial, or the tables of 2021")
       .required();
-  list.word("--method", options.method, "HOW", {"likelihood", "grid"}, "How to fit");
+  list.word("--method", options.method, "HOW", {"likelihood", "grid", "kinds"}, "How to fit");
   list.word("--answers", options.answers, "WHAT", {"path", "verdict"},
             "What of an answer counts: the path, or whether it is right");
   list.integer("--types", options.types, {1, 6}, "Types of people without labels (default: as labelled)");
@@ -88,19 +92,42 @@ void declare(OptionList& list, FitCommandOptions& options) {
   list.integer("--seed", options.seed, {}, "Seed of all random streams");
   list.threads(options.threads, "; never changes a result");
   list.text("-o,--out", options.out, "FILE", "Write the result to this file, as JSON");
+  list.flag("--predict", options.predict,
+            "Predict each answer of the tables of 2021 from those before, by several models");
   list.flag("--yes", options.yes, "Replace the file of -o if there is one");
   list.progress(options.progress);
   list.json();
 }
 
+int predict(const FitCommandOptions& options, Console& console) {
+  const std::filesystem::path folder{options.logs.front()};
+  const auto responses = folder / "lee2021_test_responses.csv";
+  std::error_code ignored;
+  if (options.logs.size() > 1 || !std::filesystem::exists(responses, ignored)) {
+    refuse("--predict needs the folder with the tables of 2021, and nothing else");
+  }
+  watch_signals();
+  Progress progress{options.progress, console};
+  const auto report =
+      predict_answers(read_lee2021_worlds(folder / "lee2021_test_mdps.jsonl"), read_lee2021_responses(responses),
+                      {.threads = options.threads, .on_progress = progress.until_stopped()});
+  progress.finish();
+  if (!report.complete) return interrupted("interrupted; nothing was written", console);
+  return finish(options, to_json(report), text_of(report, console), console);
+}
+
 int run(const FitCommandOptions& options, Console& console) {
   require_replaceable(options.out, options.yes);
   const auto detail = options.answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict;
-  const auto imported = import_logs({options.logs.begin(), options.logs.end()}, detail);
+  if (options.predict) return predict(options, console);
+  const bool asks_for_kinds = options.method == "kinds";
+  const auto imported = import_logs({options.logs.begin(), options.logs.end()}, detail,
+                                    asks_for_kinds ? PeopleRead::kAnyKind : PeopleRead::kBayesian);
   if (!console.quiet()) console.show(imported.logs.notes);
   if (!imported.accuracy.empty()) {
-    if (options.method == "grid") {
-      refuse("--method grid needs logs that tell what people saw; these tell only what they answered");
+    if (options.method != "likelihood") {
+      refuse("--method " + options.method +
+             " needs logs that tell what people saw; these tell only what they answered");
     }
     const auto fit = fit_accuracy(imported.accuracy);
     return finish(options, to_json(fit), text_of(fit, console), console);
@@ -110,6 +137,13 @@ int run(const FitCommandOptions& options, Console& console) {
   Progress progress{options.progress, console};
   const ParallelOptions parallel{.threads = options.threads, .on_progress = progress.until_stopped()};
   const LikelihoodOptions how{.replicates = options.replicates, .seed = options.seed, .parallel = parallel};
+  if (asks_for_kinds) {
+    const auto report =
+        fit_kinds(imported.logs, {.replicates = options.replicates, .seed = options.seed, .parallel = parallel});
+    progress.finish();
+    if (!report.complete) return interrupted("interrupted; nothing was written", console);
+    return finish(options, to_json(report), text_of(report, console), console);
+  }
   const bool says_time = !console.quiet() && !imported.logs.people.empty();
   if (options.method == "grid") {
     const auto logs = without_noise(imported.logs);

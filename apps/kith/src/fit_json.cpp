@@ -137,4 +137,56 @@ Json to_json(const std::vector<GridSearchGroup>& groups) {
   return document;
 }
 
+Json to_json(const KindsReport& report) {
+  Json document{{"schema", kSchema}, {"method", "kinds"}};
+  document["kinds"] = Json::array();
+  for (const auto& kind : report.kinds) {
+    document["kinds"].push_back({{"kind", kind.kind},
+                                 {"share", kind.share},
+                                 {"likeliest_for", kind.described},
+                                 {"log_evidence", kind.log_evidence},
+                                 {"difference", kind.difference},
+                                 {"difference_se", kind.difference_se}});
+  }
+  document["people"] = Json::array();
+  for (const auto& person : report.people) {
+    Json kinds = Json::object();
+    for (std::size_t k = 0; k < report.kinds.size(); ++k) {
+      Json parameters = Json::object();
+      for (const auto& one : person.parameters[k]) {
+        parameters[one.name] = {{"mean", one.mean}, {"lower", one.lower}, {"upper", one.upper}};
+      }
+      kinds[report.kinds[k].kind] = {
+          {"log_evidence", person.log_evidence[k]}, {"probability", person.probability[k]}, {"parameters", parameters}};
+    }
+    document["people"].push_back({{"id", person.id},
+                                  {"type", person.type},
+                                  {"answered", person.answered},
+                                  {"likeliest", report.kinds[person.likeliest].kind},
+                                  {"cannot_tell_yet", person.is_unclear},
+                                  {"kinds", kinds}});
+  }
+  return document;
+}
+
+Json to_json(const PredictionReport& report) {
+  Json document{{"schema", kSchema}, {"method", "predict"}, {"people", report.people}, {"answers", report.answers}};
+  document["models"] = Json::array();
+  for (const auto& model : report.models) {
+    Json bins = Json::array();
+    for (const auto& bin : model.calibration) {
+      bins.push_back({{"answers", bin.answers}, {"predicted", bin.predicted}, {"right", bin.right}});
+    }
+    document["models"].push_back({{"model", model.model},
+                                  {"log_loss", model.log_loss},
+                                  {"log_loss_se", model.log_loss_se},
+                                  {"difference", model.difference},
+                                  {"difference_se", model.difference_se},
+                                  {"auc", model.area},
+                                  {"best_for", model.best_for},
+                                  {"calibration", bins}});
+  }
+  return document;
+}
+
 }  // namespace kith::cli

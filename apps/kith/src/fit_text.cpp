@@ -163,4 +163,46 @@ std::string text_of(const std::vector<GridSearchGroup>& groups, const Console& c
          "\n";
 }
 
+std::string text_of(const KindsReport& report, const Console& console) {
+  std::string text =
+      "How well the kinds of learners explain these people. Log evidence is that of all\n"
+      "answers, less that of the first kind.\n\n";
+  TextTable kinds{"lrrrr"};
+  kinds.add({"kind", "share", "likeliest for", "log evidence", "+-"});
+  for (const auto& kind : report.kinds) {
+    kinds.add({kind.kind, fmt::format("{:.2f}", kind.share), fmt::format("{}", kind.described),
+               fmt::format("{:+.1f}", kind.difference), fmt::format("{:.1f}", kind.difference_se)});
+  }
+  text += kinds.text(console) + "\n";
+  TextTable people{"lrllr"};
+  people.add({"person", "tests", "likeliest kind", "", "probability"});
+  for (std::size_t i = 0; i < std::min(report.people.size(), kShown); ++i) {
+    const auto& person = report.people[i];
+    people.add({person.id, fmt::format("{}", person.answered), report.kinds[person.likeliest].kind,
+                person.is_unclear ? "cannot tell yet" : "",
+                fmt::format("{:.2f}", person.probability[person.likeliest])});
+  }
+  text += people.text(console);
+  if (report.people.size() > kShown) {
+    text +=
+        console.dim(fmt::format("... and {} more; all of them are in the JSON", report.people.size() - kShown)) + "\n";
+  }
+  return text;
+}
+
+std::string text_of(const PredictionReport& report, const Console& console) {
+  auto text = fmt::format(
+      "{} answers of {} people, each predicted from the answers before and from all other people.\n"
+      "Loss is -log p(what was answered), per answer; less is that of the filter, \"bayesian\".\n\n",
+      report.answers, report.people);
+  TextTable table{"lrrrrrr"};
+  table.add({"model", "loss", "+-", "less", "+-", "AUC", "best for"});
+  for (const auto& model : report.models) {
+    table.add({model.model, fmt::format("{:.3f}", model.log_loss), fmt::format("{:.3f}", model.log_loss_se),
+               fmt::format("{:+.3f}", model.difference), fmt::format("{:.3f}", model.difference_se),
+               fmt::format("{:.2f}", model.area), fmt::format("{}", model.best_for)});
+  }
+  return text + table.text(console);
+}
+
 }  // namespace kith::cli
