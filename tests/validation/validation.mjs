@@ -17,13 +17,14 @@ import { parseArgs } from 'node:util';
 import { compareTables, describe, findTypedFigures, parsePage, printPage, printTable } from './page.mjs';
 import { Runs } from './runs.mjs';
 import * as gallery from './gallery_content.mjs';
+import * as minds from './minds_content.mjs';
 import * as teachers from './teachers_content.mjs';
 import * as validation from './validation_content.mjs';
 
 const source = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 
 // What fills in a page: {COMMANDS, makeContent}.
-const CONTENT = { 'validation.md': validation, 'teachers.md': teachers, 'gallery.md': gallery };
+const CONTENT = { 'validation.md': validation, 'teachers.md': teachers, 'gallery.md': gallery, 'minds.md': minds };
 
 function readArguments() {
   const { values, positionals } = parseArgs({
