@@ -198,6 +198,10 @@ class Domain:
         """A picture of the start, with the robot's path, as SVG; empty without a map."""
         return self._native.board(start, path)
 
+    def region_picture(self) -> str:
+        """The sphere of weights with the prior and the region in it, as SVG; beyond three features, pair by pair."""
+        return self._native.region_picture()
+
     def __str__(self) -> str:
         rows = "\n".join(self.worlds[-1].map)
         return f"{self.title or self.id}\n{rows}".rstrip()

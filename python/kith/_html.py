@@ -39,7 +39,8 @@ def domain_html(domain: Domain) -> str:
     return (f"<h4>{html.escape(domain.title or domain.id)}</h4>"
             f"<p>{len(domain.worlds)} worlds, {len(domain.starts)} starts. Reward: {weights}.</p>"
             + _inline(domain.board(world.initial), 420)
-            + _table(["what there is to understand", "in words", "area left (sr)"], rows))
+            + _table(["what there is to understand", "in words", "area left (sr)"], rows)
+            + _inline(domain.region_picture(), 640))
 
 
 def _start(start: Any) -> tuple[int, int]:

@@ -285,6 +285,16 @@ def study(study: StudySource, out: Union[str, os.PathLike[str], None] = None, *,
     return run
 
 
+def resolve(study: StudySource, *, domain: Optional[Domain] = None, strategies: Iterable[Any] = (),
+            learners: Mapping[str, Any] = {}, **settings: Any) -> str:
+    """The study as a study file with every key written out; kith.Error if anything in it is wrong."""
+    inputs = _Inputs(study, settings, domain, strategies, learners)
+    try:
+        return _core.resolved(inputs.name, inputs.text, inputs.overrides)
+    finally:
+        inputs.close()
+
+
 def fit(*logs: Union[str, os.PathLike[str], Run], method: str = "likelihood", answers: str = "path", types: int = 0,
         folds: int = 5, replicates: int = 2, seed: int = 1, threads: int = 0, progress: Progress = "auto") -> dict[str, Any]:
     """How people learn, from what they saw and answered: runs, tables of trials. The document kith.fit/1."""

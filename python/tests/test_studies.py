@@ -13,7 +13,7 @@ import unittest
 
 import kith
 import numpy as np
-from support import PROGRAM, SMALL, lake_domain
+from support import PROGRAM, SMALL, SOURCE, lake_domain
 
 
 class Runs(unittest.TestCase):
@@ -112,6 +112,26 @@ class Runs(unittest.TestCase):
         curves = kith.power("paper", "periods: strategy", teams=[2, 4], pool=8, draws=20, progress=False, teacher={"particles": 100},
                             stop={"max_periods": 4}, strategies=["joint", "common"])
         self.assertEqual([one["teams"] for one in curves["effects"][0]["points"]], [2, 4])
+
+    def test_learners_are_fitted(self):
+        found = kith.fit(self.run_, folds=0, replicates=1, progress=False)
+        self.assertEqual([one["name"] for one in found["types"]], ["N", "P"])
+        with self.assertRaises(kith.Error):
+            kith.fit(self.folder / "nothing")
+
+    def test_parameters_are_calibrated(self):
+        studies = SOURCE / "studies"
+        found = kith.calibrate(studies / "paper-uncalibrated.toml", studies / "paper-targets.toml", rounds=1, points=32,
+                               teams=2, confirm_teams=2, progress=False)
+        self.assertTrue(found["targets"] and all("=" in one for one in found["settings"]))
+
+    def test_a_study_is_written_out(self):
+        text = kith.resolve("quick", **SMALL)
+        self.assertRegex(text, r"particles *= *200")
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "all.toml"
+            file.write_text(text)
+            self.assertEqual(kith.resolve(file, domain=kith.Domain("item-delivery")).split("[design]")[1], text.split("[design]")[1])
 
     def test_what_is_wrong_is_refused(self):
         for wrong in (dict(study="nothing"), dict(study="quick", teacher={"partikel": 3}), dict(study={"domain": 3})):
