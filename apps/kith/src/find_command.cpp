@@ -184,8 +184,7 @@ void declare(OptionList& list, FindOptions& options) {
              "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed");
   list.flag("--test", options.test, "For a test rather than for a demonstration");
   list.flag("--no-make", options.no_make, "Do not make a world where the domain has none");
-  list.integer("--changes", options.changes, {1, 6},
-               "Most cells in which a world that is made may differ");
+  list.integer("--changes", options.changes, {1, 6}, "Most cells in which a world that is made may differ");
   list.text("-o,--out", options.out, "FILE", "Write the world to this file, as a domain of its own");
   list.json();
 }

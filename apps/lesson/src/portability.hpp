@@ -1,5 +1,6 @@
-// Included before every file of the engine: what the libraries use of C++20 and Emscripten's C++ library does not have.
 #pragma once
+
+// Included before every file of the engine: what the libraries use of C++20 and Emscripten's C++ library does not have.
 
 #include <algorithm>
 #include <cerrno>
