@@ -76,7 +76,7 @@ function fill(template, name, value) {
 
 // Texts of screens that only live sessions have.
 const kOnlyLive =
-  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|debrief|end|bye|pause|trouble|progress)\./;
+  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|debrief|end|bye|pause|trouble|progress|file)\./;
 const withoutLiveTexts = {
   name: 'texts',
   setup({ onLoad }) {

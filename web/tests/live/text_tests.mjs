@@ -21,7 +21,7 @@ function sources(folder) {
 export function textTests() {
   describe('texts', () => {
     const english = read('en.json');
-    const code = ['shared', 'live', 'lesson'].flatMap((folder) => sources(join(source, folder))).join('\n');
+    const code = ['shared', 'live', 'lesson', 'file'].flatMap((folder) => sources(join(source, folder))).join('\n');
 
     it('are there for every key that a screen uses', () => {
       const has = (key) => key in english || `${key}.other` in english;
