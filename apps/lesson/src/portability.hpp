@@ -97,6 +97,16 @@ constexpr auto count_if(R&& range, F f, P projection = {}) {
                        [&](auto&& x) { return std::invoke(f, std::invoke(projection, x)); });
 }
 
+template <class R, class T, class P = std::identity>
+constexpr auto count(R&& range, const T& value, P projection = {}) {
+  return ranges::count_if(
+      range, [&](auto&& x) { return x == value; }, projection);
+}
+template <class A, class B>
+constexpr auto find_first_of(A&& a, B&& b) {
+  return std::find_first_of(std::begin(a), std::end(a), std::begin(b), std::end(b));
+}
+
 namespace detail {
 template <class C, class P>
 constexpr auto by(C& compare, P& projection) {

@@ -25,6 +25,8 @@ strategies = ["joint"]
 compositions = ["N"]
 [learner.N]
 ability = { mean = 0.7, sd = 0.03 }
+confirm_gain = { half_normal = 0.03 }
+correct_gain = { half_normal = 0.05 }
 [teacher]
 particles = 100
 [group]

@@ -18,6 +18,8 @@ struct WordFor {
   Enum value;
   std::string_view word;
 };
+template <typename Enum>
+WordFor(Enum, const char*) -> WordFor<Enum>;  // clang 14 finds none by itself
 
 /// The words of an enumeration that files name, specialised beside it: a std::array of WordFor.
 template <typename Enum>
