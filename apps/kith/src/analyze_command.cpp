@@ -248,13 +248,17 @@ std::string left_text(const std::vector<const Finding*>& left, const std::string
          "\n";
 }
 
-// The findings of a run on a page: the answers, how a paper reports them, and one table each.
-std::string page_text(const Analysis& analysis, const Console& console) {
+// The findings of a run on a page: the answers, and one table each; all of their tables where comparisons were asked
+// for.
+std::string page_text(const Analysis& analysis, const AnalyzeOptions& options, const Console& console) {
   const auto page = page_of(analysis);
+  const bool compares = !options.contrasts.empty() || !options.by.empty() || !options.smallest_effect.empty();
   std::string text;
   for (const auto* finding : page.shown) {
     text += (text.empty() ? "" : "\n") + title_and_sentence(*finding, console);
-    if (!finding->tables.empty()) text += text_of(finding->tables.front(), console);
+    for (const auto& table : finding->tables) {
+      if (compares || &table == &finding->tables.front()) text += text_of(table, console);
+    }
   }
   const auto notes = notes_text(page.shown);
   return text + (notes.empty() ? "" : "\n" + notes) + left_text(page.left, analysis.subject);
@@ -356,7 +360,7 @@ int run(const AnalyzeOptions& options, Console& console) {
     for (const auto& finding : analysis.findings) text += (text.empty() ? "" : "\n") + text_of(finding, console);
     if (!analysis.not_analysed.empty()) text += "\n" + wrapped(not_analysed_text(analysis), kTextWidth) + "\n";
   } else {
-    text += (text.empty() ? "" : "\n") + page_text(analysis, console);
+    text += (text.empty() ? "" : "\n") + page_text(analysis, options, console);
   }
   console.print(text);
   return 0;

@@ -14,7 +14,7 @@ const std::string kHospital = std::string{KITH_SOURCE_DIR} + "/libs/explain/test
 
 TEST(FirstHour, WorldsGoByTheirNames) {
   EXPECT_THAT(run_kith({"inspect", kHospital, "--mdp", "visiting hours"}).out,
-              HasSubstr("Map of MDP 2 (visiting hours)"));
+              HasSubstr("Map of world 2 (visiting hours)"));
   EXPECT_EQ(run_kith({"inspect", kHospital, "--mdp", "Visiting Hours"}).out,
             run_kith({"inspect", kHospital, "--mdp", "2"}).out);
   const auto wrong = run_kith({"inspect", kHospital, "--mdp", "noon"});

@@ -53,7 +53,7 @@ TEST_F(Model, IsAskedAboutWithItsChances) {
   const auto& example = document.at("examples").at(0);
   EXPECT_NEAR(example.at("chance").get<double>(), 0.66, 0.005);
   EXPECT_TRUE(example.at("alternative").at("chance").is_null()) << "nobody slips on the bank";
-  ASSERT_EQ(example.at("runs").at("runs").size(), 10u);
+  ASSERT_EQ(example.at("runs").at("runs").size(), 5u);
   for (const auto& run : example.at("runs").at("runs")) {
     EXPECT_EQ(run.at("frames").at(0).at("robot"), example.at("start").at("robot"));
     EXPECT_TRUE(run.at("ended").is_boolean());

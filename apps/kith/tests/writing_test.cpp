@@ -48,7 +48,7 @@ struct Writer {
   std::vector<std::string> replacing{};  // what allows to replace what it wrote before
 };
 
-constexpr rlim_t kLittle = 600;  // bytes of a file, after which the disk is full
+constexpr rlim_t kLittle = 200;  // bytes of a file, after which the disk is full
 
 // A run with one team per cell and a session with one person, made once.
 class Writing : public ::testing::Test {
