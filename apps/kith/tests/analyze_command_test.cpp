@@ -115,7 +115,7 @@ TEST_F(AnalyzeCommand, TestsAModelOnStandardInput) {
 TEST_F(AnalyzeCommand, TestsContrastsThatWerePlanned) {
   const auto ran = run_kith({"analyze", folder(), "--contrast", "mine: joint - common"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Planned contrasts of strategy"), HasSubstr("mine: ")));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Planned contrasts of strategy"), HasSubstr("\nmine ")));
   EXPECT_EQ(run_kith({"analyze", folder(), "--contrast", "joint - nobody"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--contrast", "joint + common"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--smallest-effect", "none"}).code, 2);
