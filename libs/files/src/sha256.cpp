@@ -37,20 +37,4 @@ std::string Sha256::digest() && {
   return {digest.begin(), digest.begin() + length};
 }
 
-std::string Sha256::hex() && {
-  static constexpr char kHex[] = "0123456789abcdef";
-  std::string text;
-  for (const char byte : std::move(*this).digest()) {
-    text += kHex[static_cast<unsigned char>(byte) >> 4];
-    text += kHex[static_cast<unsigned char>(byte) & 0xFu];
-  }
-  return text;
-}
-
-std::string sha256(std::string_view bytes) {
-  Sha256 hash;
-  hash.update(bytes);
-  return std::move(hash).hex();
-}
-
 }  // namespace kith
