@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,19 @@ class OwnCodeFailed : public Error {
       : Error{ErrorKind::kPartial, text}, raised_{std::move(object)} {}
   SharedObject raised_;
 };
+
+/// What `body`, which calls code written in Python, gives. @pre the lock is held. @param what  whose code, as above.
+/// @throws OwnCodeFailed if the code raises; Error (kPartial) if it gives something of another type.
+template <typename Body>
+std::invoke_result_t<Body> calling_own_code(const std::string& what, Body body) {
+  try {
+    return body();
+  } catch (const py::error_already_set& raised) {
+    throw OwnCodeFailed{what, raised};
+  } catch (const py::builtin_exception& error) {
+    throw Error{ErrorKind::kPartial, what + " gave something of no use: " + error.what()};
+  }
+}
 
 /// Warnings as Python's: category kith.Warning. @pre the lock is held.
 void warn(const std::vector<Diagnostic>& diagnostics);

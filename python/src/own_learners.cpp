@@ -29,14 +29,7 @@ struct Start {
 
 template <typename Body>
 std::invoke_result_t<Body> calling(const LearnerSlot& slot, Body body) {
-  const auto what = "the learner '" + slot.name + "'";
-  try {
-    return body();
-  } catch (const py::error_already_set& raised) {
-    throw OwnCodeFailed{what, raised};
-  } catch (const py::builtin_exception& error) {
-    throw Error{ErrorKind::kPartial, what + " gave something of no use: " + error.what()};
-  }
+  return calling_own_code("the learner '" + slot.name + "'", std::move(body));
 }
 
 class OwnLearner final : public Learner {

@@ -196,14 +196,7 @@ class OwnStrategy final : public Strategy {
   }
   template <typename Body>
   static std::invoke_result_t<Body> calling(const StrategySlot& slot, Body body) {
-    const auto what = "the strategy '" + slot.name + "'";
-    try {
-      return body();
-    } catch (const py::error_already_set& raised) {
-      throw OwnCodeFailed{what, raised};
-    } catch (const py::builtin_exception& error) {
-      throw Error{ErrorKind::kPartial, what + " gave something of no use: " + error.what()};
-    }
+    return calling_own_code("the strategy '" + slot.name + "'", std::move(body));
   }
 
  private:
