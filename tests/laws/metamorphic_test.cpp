@@ -96,7 +96,7 @@ void expect_same_facts(const Atlas& original, const Atlas& other, const Rewritin
   }
   // What is compared beside the robot's paths is sampled where not every state is a start; and constraints of
   // expectations are rounded, to other ones if the last bit differs.
-  const bool are_tabulated = original.is_tabulated() && other.is_tabulated();
+  const bool are_tabulated = original.find_tables() && other.find_tables();
   const bool is_region_exact = domain.is_exact() && (are_tabulated || all_states_are_starts(domain));
   if (rewriting.same_vectors || is_region_exact) {
     EXPECT_EQ(facts.region, others.region);
@@ -230,7 +230,7 @@ TEST(Metamorphic, WhatIsKnownOfARandomRobotDoesNotDependOnHowItIsSaid) {
 }
 
 void expect_same_lessons_where_nothing_is_sampled(const Atlas& original, const Atlas& other, const Rewriting& way) {
-  const bool has_few = original.domain().num_features() == 3 && original.is_tabulated();
+  const bool has_few = original.domain().num_features() == 3 && original.find_tables();
   if ((way.same_vectors && way.same_states) || (has_few && !has_equal_counters(original)))
     expect_same_lessons(original, other, way);
 }

@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3d> Interaction::people(std::uint64_t turn) const {
 
 std::vector<PolicyCellIndex> Interaction::cells(std::uint64_t turn) const {
   std::vector<PolicyCellIndex> cells;
-  for (const auto& weights : people(turn)) cells.push_back(atlas.cells().locate(weights));
+  for (const auto& weights : people(turn)) cells.push_back(atlas.tables().cells().locate(weights));
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;

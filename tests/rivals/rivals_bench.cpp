@@ -50,7 +50,7 @@ BENCHMARK(step_naive);
 void selection(benchmark::State& state) {
   const Interaction interaction{atlas()};
   std::uint64_t turn = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(atlas().conveyed_by_class(interaction.cells(turn++ % 64)));
+  for (auto _ : state) benchmark::DoNotOptimize(atlas().tables().conveyed_by_class(interaction.cells(turn++ % 64)));
 }
 BENCHMARK(selection);
 

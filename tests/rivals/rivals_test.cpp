@@ -78,7 +78,7 @@ TEST(NaiveCounterfactuals, ConveyWhatTheAtlasLooksUp) {
   const NaiveCounterfactuals naive{atlas()};
   for (std::uint64_t turn = 0; turn < 2; ++turn) {
     const auto theirs = naive.conveyed(interaction.people(turn));
-    const auto rows = atlas().conveyed_by_class(interaction.cells(turn));
+    const auto rows = atlas().tables().conveyed_by_class(interaction.cells(turn));
     for (DemoIndex demo{0}; demo.value() < atlas().num_demos(); ++demo) {
       const auto row =
           std::span{rows}.subspan(atlas().demo_class(demo).value() * atlas().words_per_set(), atlas().words_per_set());

@@ -205,7 +205,7 @@ class Inspection {
   void what_works() {
     heading("What works with this robot");
     out_ += "  lessons, questions, studies and live sessions\n";
-    const bool has_tables = atlas_->is_tabulated();
+    const bool has_tables = atlas_->find_tables() != nullptr;
     const bool is_solid = domain_.num_features() == 3;
     out_ += has_tables && is_solid
                 ? "  kith fit and kith audit, and beliefs drawn on a sphere\n"
@@ -240,16 +240,17 @@ class Inspection {
   }
 
   void coverage() {
-    if (!atlas_->is_tabulated()) {
+    if (!atlas_->find_tables()) {
       heading("What people could expect the robot to do");
       out_ += "  computed on demand; not precomputed for this domain\n";
       return;
     }
-    const auto& coverage = atlas_->coverage();
+    const auto& coverage = atlas_->tables().coverage();
     heading("What people could expect the robot to do");
     out_ += fmt::format("  {} paths that are optimal for some weights: {:.2f} per start state, at most {}\n",
                         coverage.vertices, coverage.mean, coverage.max);
-    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_->cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n",
+                        atlas_->tables().cells().size());
   }
 
   void demos() {
@@ -292,9 +293,9 @@ class Inspection {
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }
-    if (!atlas_->is_tabulated()) return expected_by_a_sample(demo);
+    if (!atlas_->find_tables()) return expected_by_a_sample(demo);
     const auto& robot = atlas_->feature_counts(demo);
-    const auto paths = atlas_->coverage_set(demo);
+    const auto paths = atlas_->tables().coverage_set(demo);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
       if (paths[i] == robot) {
         out_ += "  " + counts_text(domain_, paths[i]) + ": the robot's own path\n";
@@ -304,7 +305,8 @@ class Inspection {
               in_words(domain_, HalfSpace{robot - paths[i]}) + "\n";
     }
     note_cut(paths.size());
-    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_->cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n",
+                        atlas_->tables().cells().size());
   }
 
   void expected_by_a_sample(DemoIndex demo) {

@@ -39,7 +39,7 @@ BENCHMARK(BM_BuildAtlas)->Unit(benchmark::kMillisecond);
 void BM_LocateCell(benchmark::State& state) {
   const auto weights = some_weights(1024);
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(atlas().cells().locate(weights[i++ % weights.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(atlas().tables().cells().locate(weights[i++ % weights.size()]));
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(BM_LocateCell);
@@ -49,8 +49,8 @@ void BM_ConveyedToEightByLookUp(benchmark::State& state) {
   const auto weights = some_weights(8);
   for (auto _ : state) {
     std::vector<PolicyCellIndex> cells;
-    for (const auto& w : weights) cells.push_back(atlas().cells().locate(w));
-    benchmark::DoNotOptimize(atlas().conveyed_by_class(cells));
+    for (const auto& w : weights) cells.push_back(atlas().tables().cells().locate(w));
+    benchmark::DoNotOptimize(atlas().tables().conveyed_by_class(cells));
   }
 }
 BENCHMARK(BM_ConveyedToEightByLookUp)->Unit(benchmark::kMicrosecond);

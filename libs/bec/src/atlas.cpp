@@ -44,22 +44,10 @@ IntegerVector Atlas::deviation_counts(DemoIndex demo, std::size_t choice) const 
   });
 }
 
-std::vector<IntegerVector> Atlas::coverage_set(DemoIndex demo) const {
-  if (!tabulated_) {
-    throw Error{ErrorKind::kInfeasible,
-                "what people could expect in domain '" + domain_.id() +
-                    "' is not precomputed: that needs three features, exact counts and small worlds"};
-  }
-  std::vector<IntegerVector> vertices;
-  for (const auto& loss : hulls_[hull(demo).value()].losses) vertices.push_back(feature_counts(demo) - loss);
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-std::optional<IntegerVector> Atlas::answer(DemoIndex demo, PolicyCellIndex cell) const {
-  const auto choice = cells_.choice(cell, hull(demo));
-  if (choice == PolicyCells::kNone) return std::nullopt;
-  return feature_counts(demo) - hulls_[hull(demo).value()].losses[choice];
+void Atlas::refuse_tables() const {
+  throw Error{ErrorKind::kInfeasible,
+              "what people could expect in domain '" + domain_.id() +
+                  "' is not precomputed: that needs three features, exact counts and small worlds"};
 }
 
 Atlas Atlas::with_tests(const std::vector<bool>& is_usable) const {
@@ -69,37 +57,6 @@ Atlas Atlas::with_tests(const std::vector<bool>& is_usable) const {
     std::erase_if(tests, [&](DemoIndex demo) { return !is_usable[demo.value()]; });
   }
   return atlas;
-}
-
-void Atlas::add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const {
-  const auto& constraint_of = hull_constraints_[h.value()];
-  for (const auto cell : cells) {
-    const auto choice = cells_.choice(cell, h);
-    if (choice == PolicyCells::kNone || constraint_of[choice] < 0) continue;
-    const auto c = static_cast<std::size_t>(constraint_of[choice]);
-    row[c / 64] |= std::uint64_t{1} << (c % 64);
-  }
-}
-
-std::vector<std::uint64_t> Atlas::conveyed_by_class(std::span<const PolicyCellIndex> cells) const {
-  const auto words = words_per_set();
-  std::vector<std::uint64_t> by_hull(hulls_.size() * words, 0);
-  for (std::size_t h = 0; h < hulls_.size(); ++h) {
-    add_conveyed(HullIndex{h}, cells, std::span{by_hull}.subspan(h * words, words));
-  }
-  std::vector<std::uint64_t> by_class(classes_.size() * words, 0);
-  for (std::size_t c = 0; c < classes_.size(); ++c) {
-    for (const auto h : classes_[c].hulls) {
-      for (std::size_t i = 0; i < words; ++i) by_class[c * words + i] |= by_hull[h.value() * words + i];
-    }
-  }
-  return by_class;
-}
-
-ConstraintSet Atlas::conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) const {
-  auto set = no_constraints();
-  for (const auto h : classes_[demo_class(demo).value()].hulls) add_conveyed(h, cells, set.words());
-  return set;
 }
 
 }  // namespace kith

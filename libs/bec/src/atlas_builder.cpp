@@ -33,9 +33,9 @@ void AtlasBuilder::build() {
   make_policy_bec();
   count_masks();
   make_components();
-  if (atlas_.tabulated_) {
+  if (tables_) {
     make_facets();
-    atlas_.cells_ = PolicyCells{atlas_.hulls_};
+    tables_->cells_ = PolicyCells{tables_->hulls_};
   }
   group_demos();
   index_tests();
@@ -53,8 +53,10 @@ void AtlasBuilder::choose_source(BehaviourSource source) {
         "behaviours in domain '" + domain.id() +
             "' cannot be precomputed: that needs three features, exact counts below 2^31 and all states as starts"};
   }
-  atlas_.tabulated_ =
-      source == BehaviourSource::kTabulated || (source == BehaviourSource::kAutomatic && is_cheap_to_tabulate(domain));
+  if (source == BehaviourSource::kTabulated ||
+      (source == BehaviourSource::kAutomatic && is_cheap_to_tabulate(domain))) {
+    atlas_.tables_ = tables_ = std::make_shared<BehaviourTables>();
+  }
 }
 
 void AtlasBuilder::plan() {
@@ -76,7 +78,7 @@ void AtlasBuilder::plan() {
     const auto order = successors_first(mdp, *plan);
     describe_paths(m, *plan, order);
     collect_one_step(m, *plan, order);
-    if (atlas_.tabulated_) find_hulls(m);
+    if (tables_) find_hulls(m);
     atlas_.canonical_choices_.push_back(std::move(plan->choice));
     atlas_.shown_next_.push_back(std::move(plan->next));
   }
@@ -233,7 +235,7 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot, const Pa
 // nothing about its reward, and none of them counts. Without tables not all of
 // them are known, and none counts.
 void AtlasBuilder::find_indifference() {
-  if (!atlas_.tabulated_) {
+  if (!tables_) {
     indifferent_ = true;
     return;
   }
@@ -243,7 +245,7 @@ void AtlasBuilder::find_indifference() {
     if (sign_of_dot(half_space.normal(), weights) == 0) ties.push_back(half_space);
   };
   for (ConstraintIndex c{0}; c.value() < raw_.size(); ++c) collect(raw_[c]);
-  for (const auto& hull : atlas_.hulls_) {
+  for (const auto& hull : tables_->hulls_) {
     for (const auto& loss : hull.losses) {
       if (!loss.is_zero()) collect(HalfSpace{loss});
     }
@@ -290,8 +292,9 @@ void AtlasBuilder::number_constraints() {
   for (const auto& set : minimal_sets_) {
     for (const auto& half_space : set) table.add(half_space);
   }
-  for (const auto& hull : atlas_.hulls_) {
-    auto& row = atlas_.hull_constraints_.emplace_back();
+  if (!tables_) return;
+  for (const auto& hull : tables_->hulls_) {
+    auto& row = tables_->constraints_.emplace_back();
     for (const auto& loss : hull.losses) {
       const bool tells = !loss.is_zero() && counts(HalfSpace{loss});
       row.push_back(tells ? static_cast<std::int32_t>(table.add(HalfSpace{loss}).value()) : -1);
@@ -312,12 +315,12 @@ void AtlasBuilder::make_one_step_sets() {
 // Demonstrations that convey the same to everybody: where that is known, those whose paths meet the same hulls; else
 // each one is a class of its own.
 void AtlasBuilder::group_demos() {
-  if (atlas_.tabulated_) {
+  if (tables_) {
     group_by_hulls();
   } else {
     for (const std::size_t i : candidates()) {
       atlas_.demos_[i].demo_class = DemoClassIndex{atlas_.classes_.size()};
-      atlas_.classes_.emplace_back().members.emplace_back(i);
+      atlas_.classes_.emplace_back().emplace_back(i);
     }
   }
   for (auto& component : atlas_.components_) {
@@ -332,7 +335,7 @@ void AtlasBuilder::index_tests() {
   for (const std::size_t i : candidates()) {
     const DemoIndex demo{i};
     for (const auto c : atlas_.one_step(demo).members()) {
-      const bool discriminates = !atlas_.tabulated_ || atlas_.robot_cell_facets(demo).contains(c);
+      const bool discriminates = !tables_ || tables_->robot_cell_facets(demo).contains(c);
       if (discriminates) atlas_.tests_for_[c.value()].push_back(demo);
     }
   }

@@ -35,7 +35,7 @@ class AtlasBuilder {
   [[nodiscard]] bool counts(const HalfSpace& half_space) const;
   void reduce_one_step();
   void find_hulls(MdpIndex m);
-  void intern_hull(Atlas::Demo& here, const CoverageSets& coverage);
+  void intern_hull(const Atlas::Demo& here, const CoverageSets& coverage);
   void number_constraints();
   void make_one_step_sets();
   void compare_whole_paths();
@@ -80,7 +80,8 @@ class AtlasBuilder {
   using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
 
   Atlas& atlas_;
-  std::vector<std::size_t> rank_;  // where each feature stands in it
+  std::shared_ptr<BehaviourTables> tables_;  // the atlas's; nothing where behaviours are planned
+  std::vector<std::size_t> rank_;            // where each feature stands in it
   // What paths show grows with their length.
   MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.

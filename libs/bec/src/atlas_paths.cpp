@@ -59,7 +59,7 @@ double regret_of(PeopleRegret& regret, const Eigen::MatrixXd& people, Eigen::Ind
 // start shows those comparisons with paths from there that follow from what is known in the end. How much regret is
 // left then is measured with people who had no part in that.
 void AtlasBuilder::compare_whole_paths() {
-  if (atlas_.tabulated_ || paths_meet_all_states_) return;
+  if (tables_ || paths_meet_all_states_) return;
   PeopleRegret regret{atlas_, kManyStarts};
   Regions regions{atlas_.constraints_};
   auto known = atlas_.prior_;

@@ -9,14 +9,15 @@ void AtlasBuilder::find_hulls(MdpIndex m) {
   const auto& mdp = atlas_.domain_.mdp(m);
   const auto coverage = coverage_sets(mdp);
   for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-    atlas_.coverage_.max = std::max(atlas_.coverage_.max, coverage.vertices(s).size());
+    tables_->coverage_.max = std::max(tables_->coverage_.max, coverage.vertices(s).size());
     intern_hull(demo(m, s), coverage);
   }
-  atlas_.coverage_.vertices += coverage.num_vertices();
-  atlas_.coverage_.mean = static_cast<double>(atlas_.coverage_.vertices) / static_cast<double>(atlas_.demos_.size());
+  tables_->coverage_.vertices += coverage.num_vertices();
+  tables_->coverage_.mean =
+      static_cast<double>(tables_->coverage_.vertices) / static_cast<double>(atlas_.demos_.size());
 }
 
-void AtlasBuilder::intern_hull(Atlas::Demo& here, const CoverageSets& coverage) {
+void AtlasBuilder::intern_hull(const Atlas::Demo& here, const CoverageSets& coverage) {
   Hull hull;
   for (const auto& vertex : coverage.vertices(here.id.start)) hull.losses.push_back(here.counts - vertex);
   const auto& weights = atlas_.domain_.weights().integer;
@@ -29,17 +30,17 @@ void AtlasBuilder::intern_hull(Atlas::Demo& here, const CoverageSets& coverage) 
   if (region == regions_.end()) region = regions_.insert(regions_.end(), coverage.finite_region());
   std::vector<std::int64_t> key{region - regions_.begin()};
   for (const auto& loss : hull.losses) key.insert(key.end(), loss.begin(), loss.end());
-  const auto [place, is_new] = hull_index_.try_emplace(std::move(key), atlas_.hulls_.size());
+  const auto [place, is_new] = hull_index_.try_emplace(std::move(key), tables_->hulls_.size());
   if (is_new) {
     hull.finite_region = *region;
-    atlas_.hulls_.push_back(std::move(hull));
+    tables_->hulls_.push_back(std::move(hull));
   }
-  here.hull = HullIndex{place->second};
+  tables_->starts_.push_back({here.counts, HullIndex{place->second}});
 }
 
 void AtlasBuilder::make_facets() {
-  for (std::size_t h = 0; h < atlas_.hulls_.size(); ++h) {
-    const auto& hull = atlas_.hulls_[h];
+  for (std::size_t h = 0; h < tables_->hulls_.size(); ++h) {
+    const auto& hull = tables_->hulls_[h];
     auto facets = atlas_.no_constraints();
     std::optional<Cone> cell = hull.finite_region;
     for (const auto& loss : hull.losses) {
@@ -52,7 +53,7 @@ void AtlasBuilder::make_facets() {
           facets.insert(*atlas_.constraints_.find(facet));
       }
     }
-    atlas_.hull_facets_.push_back(std::move(facets));
+    tables_->facets_.push_back(std::move(facets));
   }
 }
 
@@ -61,14 +62,15 @@ void AtlasBuilder::group_by_hulls() {
   IntsMap<std::size_t> index;
   std::vector<std::vector<std::int64_t>> hulls_on_path(atlas_.demos_.size());
   const auto conveys = [&](HullIndex h) {
-    const auto& row = atlas_.hull_constraints_[h.value()];
+    const auto& row = tables_->constraints_[h.value()];
     return std::any_of(row.begin(), row.end(), [](std::int32_t c) { return c >= 0; });
   };
   // Paths are at most as long as their MDP has states, so following them is cheap.
   for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
     auto& hulls = hulls_on_path[i];
     for (auto at = static_cast<std::uint32_t>(i); at != Atlas::kTerminal; at = atlas_.demos_[at].next) {
-      if (conveys(atlas_.demos_[at].hull)) hulls.push_back(static_cast<std::int64_t>(atlas_.demos_[at].hull.value()));
+      const auto hull = tables_->starts_[at].hull;
+      if (conveys(hull)) hulls.push_back(static_cast<std::int64_t>(hull.value()));
     }
     std::sort(hulls.begin(), hulls.end());
     hulls.erase(std::unique(hulls.begin(), hulls.end()), hulls.end());
@@ -78,12 +80,14 @@ void AtlasBuilder::group_by_hulls() {
     }
     const auto [place, is_new] = index.try_emplace(std::move(key), atlas_.classes_.size());
     if (is_new) {
-      auto& fresh = atlas_.classes_.emplace_back();
-      for (const auto h : hulls) fresh.hulls.emplace_back(static_cast<std::size_t>(h));
+      atlas_.classes_.emplace_back();
+      auto& of_class = tables_->hulls_of_class_.emplace_back();
+      for (const auto h : hulls) of_class.emplace_back(static_cast<std::size_t>(h));
     }
-    atlas_.classes_[place->second].members.emplace_back(i);
+    atlas_.classes_[place->second].emplace_back(i);
     atlas_.demos_[i].demo_class = DemoClassIndex{place->second};
   }
+  tables_->num_constraints_ = atlas_.constraints_.size();
 }
 
 }  // namespace kith

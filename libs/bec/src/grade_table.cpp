@@ -2,20 +2,19 @@
 
 #include <algorithm>
 
-#include "kith/core/error.hpp"
 #include "kith/domains/judgement.hpp"
 
 namespace kith {
 
 GradeTable::GradeTable(const Atlas& atlas)
-    : num_components_{atlas.knowledge_components().size()}, num_hulls_{atlas.num_hulls()} {
-  if (!atlas.is_tabulated()) throw Error{ErrorKind::kInfeasible, "grades of policy cells need tabulated behaviours"};
+    : num_components_{atlas.knowledge_components().size()}, num_hulls_{atlas.tables().num_hulls()} {
   grade_starts(atlas);
   grade_tests(atlas);
 }
 
 void GradeTable::grade_starts(const Atlas& atlas) {
   const auto& domain = atlas.domain();
+  const auto& tables = atlas.tables();
   // How many starts of each component, and of all, are the same question.
   const std::size_t columns = num_components_ + 1;
   std::vector<double> counts(num_hulls_ * columns, 0.0);
@@ -24,23 +23,23 @@ void GradeTable::grade_starts(const Atlas& atlas) {
     if (!atlas.is_candidate(demo)) continue;
     for (std::size_t k = 0; k < columns; ++k) {
       if (k < num_components_ && !atlas.knowledge_components()[k].uses_mdp[atlas.id(demo).mdp.value()]) continue;
-      counts[atlas.hull(demo).value() * columns + k] += 1.0;
+      counts[tables.hull(demo).value() * columns + k] += 1.0;
       totals[k] += 1.0;
     }
   }
-  const std::size_t num_cells = atlas.cells().size();
+  const std::size_t num_cells = tables.cells().size();
   const IntegerVector nothing(domain.num_features());
   right_.assign(num_cells * num_hulls_, 0);
   grades_.assign(num_cells * columns, {});
   for (std::size_t h = 0; h < num_hulls_; ++h) {
     std::vector<PathJudgement> judged;  // one per vertex of the coverage set
     double worst = 0.0;
-    for (const auto& loss : atlas.hull(HullIndex{h}).losses) {
+    for (const auto& loss : tables.hull(HullIndex{h}).losses) {
       judged.push_back(judge_path(domain, loss, nothing));
       worst = std::max(worst, judged.back().raw_regret);
     }
     for (std::size_t cell = 0; cell < num_cells; ++cell) {
-      const auto choice = atlas.cells().choice(PolicyCellIndex{cell}, HullIndex{h});
+      const auto choice = tables.cells().choice(PolicyCellIndex{cell}, HullIndex{h});
       const bool is_right = choice != PolicyCells::kNone && judged[choice].is_right;
       const double regret = choice == PolicyCells::kNone ? worst : judged[choice].raw_regret;
       right_[cell * num_hulls_ + h] = is_right ? 1 : 0;
@@ -59,8 +58,9 @@ void GradeTable::grade_starts(const Atlas& atlas) {
 }
 
 void GradeTable::grade_tests(const Atlas& atlas) {
+  const auto& tables = atlas.tables();
   tests_.resize(num_components_);
-  tests_right_.assign(atlas.cells().size() * num_components_, 0.0);
+  tests_right_.assign(tables.cells().size() * num_components_, 0.0);
   for (std::size_t k = 0; k < num_components_; ++k) {
     const auto& component = atlas.knowledge_components()[k];
     std::vector<double> weights(num_hulls_, 0.0);
@@ -68,7 +68,7 @@ void GradeTable::grade_tests(const Atlas& atlas) {
     for (const auto facet : component.constraints.members()) {
       std::vector<HullIndex> hulls;
       for (const auto demo : atlas.tests_for(facet)) {
-        if (component.uses_mdp[atlas.id(demo).mdp.value()]) hulls.push_back(atlas.hull(demo));
+        if (component.uses_mdp[atlas.id(demo).mdp.value()]) hulls.push_back(tables.hull(demo));
       }
       if (hulls.empty()) continue;
       num_facets += 1.0;
@@ -77,7 +77,7 @@ void GradeTable::grade_tests(const Atlas& atlas) {
     for (std::size_t h = 0; h < num_hulls_; ++h) {
       if (weights[h] > 0.0) tests_[k].push_back({HullIndex{h}, weights[h] / num_facets});
     }
-    for (std::size_t cell = 0; cell < atlas.cells().size(); ++cell) {
+    for (std::size_t cell = 0; cell < tables.cells().size(); ++cell) {
       for (const auto& test : tests_[k]) {
         if (is_right(PolicyCellIndex{cell}, test.hull)) tests_right_[cell * num_components_ + k] += test.weight;
       }

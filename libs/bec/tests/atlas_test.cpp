@@ -79,7 +79,7 @@ TEST(ItemDelivery, HasThreeKnowledgeComponents) {
 }
 
 TEST(ItemDelivery, HasTheKnownCoverageSets) {
-  const auto& coverage = item_delivery().coverage();
+  const auto& coverage = item_delivery().tables().coverage();
   EXPECT_EQ(coverage.vertices, 19324u);
   EXPECT_NEAR(coverage.mean, 2.08, 0.005);
   EXPECT_EQ(coverage.max, 7u);
@@ -87,7 +87,7 @@ TEST(ItemDelivery, HasTheKnownCoverageSets) {
 
 TEST(ItemDelivery, NeedsFewConstraintsAndPolicyCells) {
   EXPECT_EQ(item_delivery().constraints().size(), 64u);
-  EXPECT_EQ(item_delivery().cells().size(), 241u);
+  EXPECT_EQ(item_delivery().tables().cells().size(), 241u);
 }
 
 // Laws.
@@ -153,14 +153,14 @@ TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
   for (int i = 0; i < 100; ++i) {
     auto w = random_weights(random);
     if (i % 2 == 0) w.z() = -std::abs(w.z());  // half of them where optima are finite
-    const auto cell = atlas.cells().locate(w);
+    const auto cell = atlas.tables().cells().locate(w);
     for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
-      const auto answer = atlas.answer(demo, cell);
-      ASSERT_EQ(answer.has_value(), atlas.finite_region(demo).contains(w));
+      const auto answer = atlas.tables().answer(demo, cell);
+      ASSERT_EQ(answer.has_value(), atlas.tables().finite_region(demo).contains(w));
       if (!answer) continue;
       const std::array<double, 3> x{w.x(), w.y(), w.z()};
       double best = -std::numeric_limits<double>::infinity();
-      for (const auto& vertex : atlas.coverage_set(demo)) best = std::max(best, dot(vertex, x));
+      for (const auto& vertex : atlas.tables().coverage_set(demo)) best = std::max(best, dot(vertex, x));
       ASSERT_NEAR(dot(*answer, x), best, 1e-12);
     }
   }
@@ -177,13 +177,14 @@ std::size_t expect_hull_maximum_is_planned(int num_weights) {
     const std::array<double, 3> x{w.x(), w.y(), w.z()};
     for (MdpIndex m{0}; m.value() < atlas.domain().num_mdps(); ++m) {
       const auto solution = behave(atlas.domain().mdp(m), x);
-      EXPECT_EQ(solution.has_value(), atlas.finite_region(atlas.index({m, StateIndex{0}})).contains(w));
+      EXPECT_EQ(solution.has_value(), atlas.tables().finite_region(atlas.index({m, StateIndex{0}})).contains(w));
       if (!solution) continue;
       ++finite;
       double largest_error = 0.0;
       for (StateIndex s{0}; s.value() < atlas.domain().mdp(m).num_states(); ++s) {
         double best = -std::numeric_limits<double>::infinity();
-        for (const auto& vertex : atlas.coverage_set(atlas.index({m, s}))) best = std::max(best, dot(vertex, x));
+        for (const auto& vertex : atlas.tables().coverage_set(atlas.index({m, s})))
+          best = std::max(best, dot(vertex, x));
         largest_error = std::max(largest_error, std::abs(solution->values[s.value()] - best));
       }
       EXPECT_LE(largest_error, 1e-9);
@@ -210,7 +211,7 @@ TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
     auto w = random_weights(random);
     w.z() = -std::abs(w.z());
     const std::array<double, 3> x{w.x(), w.y(), w.z()};
-    const std::array cells{atlas.cells().locate(w)};
+    const std::array cells{atlas.tables().cells().locate(w)};
     const MdpIndex m{uniform_index(domain.num_mdps(), random)};
     const auto learner = behave_in_favour(domain.mdp(m), x, robot);
     for (StateIndex s{0}; s.value() < domain.mdp(m).num_states(); ++s) {
@@ -223,7 +224,7 @@ TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
       }
       std::sort(expected.begin(), expected.end());
       expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
-      ASSERT_EQ(atlas.constraints().half_spaces(atlas.conveyed(demo, cells)), expected);
+      ASSERT_EQ(atlas.constraints().half_spaces(atlas.tables().conveyed(atlas.demo_class(demo), cells)), expected);
     }
   }
 }
@@ -251,13 +252,13 @@ TEST(Atlas, ClassRowsEqualTheDemonstrationsOwn) {
   for (int i = 0; i < 8; ++i) {
     auto w = random_weights(random);
     w.z() = -std::abs(w.z());
-    cells.push_back(atlas.cells().locate(w));
+    cells.push_back(atlas.tables().cells().locate(w));
   }
-  const auto rows = atlas.conveyed_by_class(cells);
+  const auto rows = atlas.tables().conveyed_by_class(cells);
   const auto words = atlas.words_per_set();
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 7}) {
     const auto row = std::span{rows}.subspan(atlas.demo_class(demo).value() * words, words);
-    ASSERT_EQ(ConstraintSet{row}, atlas.conveyed(demo, cells));
+    ASSERT_EQ(ConstraintSet{row}, atlas.tables().conveyed(atlas.demo_class(demo), cells));
   }
 }
 
@@ -268,13 +269,13 @@ TEST(Atlas, TestsDiscriminateTheirConstraint) {
   for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
     for (const auto demo : atlas.tests_for(c)) {
       ASSERT_TRUE(atlas.one_step(demo).contains(c));
-      auto others = atlas.robot_cell_facets(demo);
+      auto others = atlas.tables().robot_cell_facets(demo);
       ASSERT_TRUE(others.contains(c));
       std::vector<HalfSpace> sides = atlas.constraints().half_spaces(others);
       const auto flip = std::find(sides.begin(), sides.end(), atlas.constraints()[c]);
       ASSERT_NE(flip, sides.end());
       *flip = flip->opposite();
-      for (const auto& facet : atlas.finite_region(demo).facets()) sides.push_back(facet);
+      for (const auto& facet : atlas.tables().finite_region(demo).facets()) sides.push_back(facet);
       const auto beyond = Cone::intersection(sides);
       ASSERT_TRUE(beyond.has_value());
       ++tested;
@@ -285,21 +286,21 @@ TEST(Atlas, TestsDiscriminateTheirConstraint) {
 
 TEST(Atlas, NextToTheRobotsWeightsEverybodyAnswersLikeTheRobot) {
   const auto& atlas = item_delivery();
-  const auto cell = atlas.cells().locate(atlas.domain().weights().unit);
+  const auto cell = atlas.tables().cells().locate(atlas.domain().weights().unit);
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
-    ASSERT_EQ(atlas.answer(demo, cell), atlas.feature_counts(demo));
+    ASSERT_EQ(atlas.tables().answer(demo, cell), atlas.feature_counts(demo));
   }
 }
 
 TEST(PolicyCells, WeightsOfOneCellChooseAlikeAndOthersDiffer) {
   const auto& atlas = item_delivery();
-  EXPECT_GE(atlas.cells().num_leaves(), atlas.cells().size());
+  EXPECT_GE(atlas.tables().cells().num_leaves(), atlas.tables().cells().size());
   // Rows of choices are pairwise distinct: a cell is a maximal set of weights that choose alike.
   std::vector<std::vector<PolicyCells::Choice>> rows;
-  for (std::size_t cell = 0; cell < atlas.cells().size(); ++cell) {
+  for (std::size_t cell = 0; cell < atlas.tables().cells().size(); ++cell) {
     auto& row = rows.emplace_back();
-    for (std::size_t h = 0; h < atlas.num_hulls(); ++h)
-      row.push_back(atlas.cells().choice(PolicyCellIndex{cell}, HullIndex{h}));
+    for (std::size_t h = 0; h < atlas.tables().num_hulls(); ++h)
+      row.push_back(atlas.tables().cells().choice(PolicyCellIndex{cell}, HullIndex{h}));
   }
   std::sort(rows.begin(), rows.end());
   EXPECT_EQ(std::adjacent_find(rows.begin(), rows.end()), rows.end());

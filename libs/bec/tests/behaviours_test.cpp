@@ -51,8 +51,8 @@ const Atlas& on_demand() {
 
 TEST(Behaviours, AtlasWithoutTablesKnowsTheSamePolicy) {
   const auto& tables = item_delivery();
-  EXPECT_TRUE(tables.is_tabulated());
-  EXPECT_FALSE(on_demand().is_tabulated());
+  EXPECT_TRUE(tables.find_tables());
+  EXPECT_FALSE(on_demand().find_tables());
   EXPECT_EQ(on_demand().policy_bec_half_spaces(), tables.policy_bec_half_spaces());
   EXPECT_EQ(on_demand().policy_bec_area_sr(), tables.policy_bec_area_sr());
   ASSERT_EQ(on_demand().num_demos(), tables.num_demos());
@@ -179,7 +179,7 @@ TEST(PartitionStore, IsSharedByThreads) {
 
 TEST(Behaviours, DiscountedOnesAreComparedByExpectedCounts) {
   const Atlas atlas{domain_from(replaced(text_of("item-delivery"), "discount  = 1.0", "discount = 0.98"))};
-  EXPECT_FALSE(atlas.is_tabulated());
+  EXPECT_FALSE(atlas.find_tables());
   EXPECT_FALSE(atlas.domain().is_exact());
   EXPECT_GT(atlas.policy_bec_half_spaces().size(), 2u);
   const auto& robot = atlas.domain().weights();

@@ -52,7 +52,7 @@ TEST(ColoredTiles, TeachesTheKnownRegionInTheKnownOrder) {
 }
 
 TEST(ColoredTiles, HasTheKnownCoverageSets) {
-  const auto& coverage = atlas_of("colored-tiles").coverage();
+  const auto& coverage = atlas_of("colored-tiles").tables().coverage();
   EXPECT_EQ(coverage.vertices, 31'536u);
   EXPECT_NEAR(coverage.mean, 2.57, 0.005);
   EXPECT_EQ(coverage.max, 8u);
@@ -100,7 +100,7 @@ void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::u
       for (std::size_t s = 0; s < domain.mdp(MdpIndex{m}).num_states(); ++s) {
         const auto demo = atlas.index({MdpIndex{m}, StateIndex{s}});
         double best = -std::numeric_limits<double>::infinity();
-        for (const auto& mu : atlas.coverage_set(demo)) {
+        for (const auto& mu : atlas.tables().coverage_set(demo)) {
           double value = 0.0;
           for (std::size_t k = 0; k < 3; ++k) value += static_cast<double>(mu[k]) * weights[k];
           best = std::max(best, value);

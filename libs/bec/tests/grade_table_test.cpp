@@ -11,7 +11,9 @@ namespace {
 
 using testing::item_delivery;
 
-PolicyCellIndex robots_cell() { return item_delivery().cells().locate(item_delivery().domain().weights().unit); }
+PolicyCellIndex robots_cell() {
+  return item_delivery().tables().cells().locate(item_delivery().domain().weights().unit);
+}
 
 TEST(GradeTable, GivesTheRobotFullMarks) {
   const GradeTable table{item_delivery()};
@@ -28,13 +30,13 @@ TEST(GradeTable, IsTheMeanOverAllStarts) {
   const auto& atlas = item_delivery();
   const GradeTable table{atlas};
   const auto& raw = atlas.domain().weights().raw;
-  for (std::size_t cell = 0; cell < atlas.cells().size(); cell += 40) {
+  for (std::size_t cell = 0; cell < atlas.tables().cells().size(); cell += 40) {
     double right = 0.0, regret = 0.0;
     for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
       const auto& robot = atlas.feature_counts(demo);
       double worst = 0.0;
-      for (const auto& counts : atlas.coverage_set(demo)) worst = std::max(worst, dot(robot - counts, raw));
-      const auto answer = atlas.answer(demo, PolicyCellIndex{cell});
+      for (const auto& counts : atlas.tables().coverage_set(demo)) worst = std::max(worst, dot(robot - counts, raw));
+      const auto answer = atlas.tables().answer(demo, PolicyCellIndex{cell});
       const double loss = answer ? dot(robot - *answer, raw) : worst;
       right += answer && loss == 0.0 ? 1.0 : 0.0;
       regret += loss;

@@ -48,9 +48,9 @@ TEST_P(Indifference, WeightsOfThePolicysClassActOptimally) {
   ASSERT_TRUE(bec.has_value());
   RandomStream random{31};
   for (int i = 0; i < 12; ++i) {
-    const auto cell = atlas.cells().locate(bec->sample(random));
+    const auto cell = atlas.tables().cells().locate(bec->sample(random));
     for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
-      const auto answer = atlas.answer(demo, cell);
+      const auto answer = atlas.tables().answer(demo, cell);
       ASSERT_TRUE(answer.has_value());
       ASSERT_EQ(sign_of_dot(weights, atlas.feature_counts(demo) - *answer), 0);
     }

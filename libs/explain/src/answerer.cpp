@@ -111,7 +111,7 @@ std::string Answerer::nothing_else(MdpIndex world, const Happening& happening, b
     return happens ? "no other single step would make it more likely"
                    : "no other single step would make it less likely";
   }
-  if (atlas_.is_tabulated()) return happens ? "it happens on no sensible path" : "it happens on every sensible path";
+  if (atlas_.find_tables()) return happens ? "it happens on no sensible path" : "it happens on every sensible path";
   const bool tried_others = !happening.action && !question_.is_about_a_step();
   if (!tried_others) {
     return happens ? "no other single step would lead to it" : "no other single step would avoid it";

@@ -256,14 +256,15 @@ std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& tes
     const auto& cover = cache_->cover(atlas.prior_cone(), options_.bank.filter.particles);
     for (std::size_t i = 0; i < cover.size(); ++i) {
       const auto weights = cover.point(i);
-      const auto cell = atlas.is_tabulated() ? cache_->behaviours().locate(weights) : PolicyCellIndex{0};
+      const auto cell = atlas.find_tables() ? cache_->behaviours().locate(weights) : PolicyCellIndex{0};
       everybody_.push_back({weights, cell});
     }
   }
   std::array<double, 2> people{}, given{};  // who satisfy it, who violate it
   const bool by_path = [&] {
-    if (!atlas.is_tabulated()) return false;
-    const auto& losses = atlas.hull(atlas.hull(test.demo)).losses;
+    const auto* tables = atlas.find_tables();
+    if (!tables) return false;
+    const auto& losses = tables->hull(tables->hull(test.demo)).losses;
     return std::find(losses.begin(), losses.end(), atlas.feature_counts(test.demo) - *answer) != losses.end();
   }();
   for (const auto& [point, cell] : everybody_) {

@@ -18,11 +18,11 @@ namespace {
 
 // Weights under which exactly the paths with these feature counts are best.
 IntegerVector weights_that_choose(const Atlas& atlas, DemoIndex demo, const IntegerVector& vertex) {
-  const auto vertices = atlas.coverage_set(demo);
+  const auto vertices = atlas.tables().coverage_set(demo);
   if (vertex == atlas.feature_counts(demo) || std::find(vertices.begin(), vertices.end(), vertex) == vertices.end()) {
     throw std::invalid_argument{"contrast_with: the vertex is none of the coverage set, or the robot's own"};
   }
-  Cone cone = atlas.finite_region(demo);
+  Cone cone = atlas.tables().finite_region(demo);
   for (const auto& other : vertices) {
     if (other == vertex) continue;
     const bool has_interior = cone.clip(constraint_of(vertex, other));
@@ -119,7 +119,7 @@ std::optional<Contrast> vertex_for(const Atlas& atlas, DemoIndex demo, const Hal
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto& robot = atlas.feature_counts(path[t]);
     std::optional<IntegerVector> nearest;
-    for (const auto& vertex : atlas.coverage_set(path[t])) {
+    for (const auto& vertex : atlas.tables().coverage_set(path[t])) {
       if (vertex == robot || constraint_of(robot, vertex) != constraint) continue;
       if (!nearest || squared_length(robot - vertex) < squared_length(robot - *nearest)) nearest = vertex;
     }
@@ -151,7 +151,7 @@ std::optional<Contrast> deviation_for(const Atlas& atlas, DemoIndex demo, const 
 }  // namespace
 
 std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
-  return atlas.is_tabulated() ? vertex_for(atlas, demo, constraint) : deviation_for(atlas, demo, constraint);
+  return atlas.find_tables() ? vertex_for(atlas, demo, constraint) : deviation_for(atlas, demo, constraint);
 }
 
 namespace {
@@ -200,7 +200,7 @@ std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, DemoI
 std::optional<Contrast> contrast_for(Behaviours& behaviours, DemoIndex demo, const HalfSpace& constraint,
                                      std::span<const PolicyCellIndex> people) {
   const Atlas& atlas = behaviours.atlas();
-  if (atlas.is_tabulated()) return contrast_for(atlas, demo, constraint);
+  if (atlas.find_tables()) return contrast_for(atlas, demo, constraint);
   std::size_t from = 0;
   for (const DemoIndex here : atlas.path(demo)) {
     for (const PolicyCellIndex person : people) {

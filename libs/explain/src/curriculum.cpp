@@ -135,7 +135,7 @@ class CurriculumMaker {
     std::vector<PolicyCellIndex> cells;
     cells.reserve(weights.size());
     for (const auto& w : weights) cells.push_back(cache_.behaviours().locate(w));
-    if (atlas_.is_tabulated()) std::sort(cells.begin(), cells.end());
+    if (atlas_.find_tables()) std::sort(cells.begin(), cells.end());
     return cells;
   }
 
@@ -155,7 +155,7 @@ class CurriculumMaker {
     const bool has_interior = region.clip(before);
     KITH_ASSERT(has_interior);  // the robot's weights are inside
     // Where each of them has to be planned, fewer.
-    const auto n = atlas_.is_tabulated() ? options_.beliefs : std::min(options_.beliefs, kMostPlannedBeliefs);
+    const auto n = atlas_.find_tables() ? options_.beliefs : std::min(options_.beliefs, kMostPlannedBeliefs);
     const Eigen::MatrixXd points = cover(region, n, atlas_.feature_order());
     std::vector<PolicyCellIndex> cells;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -192,7 +192,7 @@ class CurriculumMaker {
       if (atlas_.is_candidate(demo) && !is_seen[atlas_.id(demo).mdp.value()]) starts.push_back(demo);
     }
     auto random = RandomStream{options_.seed}.split("fresh");
-    const auto n = std::min(starts.size(), atlas_.is_tabulated() ? kTried : kTriedWithoutTables);
+    const auto n = std::min(starts.size(), atlas_.find_tables() ? kTried : kTriedWithoutTables);
     for (std::size_t i = 0; i < n; ++i) std::swap(starts[i], starts[i + uniform_index(starts.size() - i, random)]);
     const auto points = beliefs(atlas_.domain().prior());
     std::vector<CurriculumTest> tried;
@@ -239,7 +239,7 @@ void require_something_to_teach(const Atlas& atlas) {
                                                 : "anybody who knows beforehand that " + listed(known) +
                                                       " predicts everything that the robot does");
   }
-  if (atlas.is_tabulated() && atlas.coverage().max == 1) {
+  if (const auto* tables = atlas.find_tables(); tables && tables->coverage().max == 1) {
     throw nothing_to_teach(atlas, "in every world, everybody who expects the robot to finish predicts the same path");
   }
   TeachingCache cache{atlas};

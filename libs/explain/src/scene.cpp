@@ -192,7 +192,7 @@ std::vector<double> other_weights(double own, bool more) {
 }  // namespace
 
 std::optional<Contrast> Scene::way_of_others(DemoIndex demo, const Happening& happening, bool happens) const {
-  if (atlas_.is_tabulated() || !domain_.is_exact()) return std::nullopt;
+  if (atlas_.find_tables() || !domain_.is_exact()) return std::nullopt;
   const Behaviours behaviours{atlas_};
   const auto world = atlas_.id(demo).mdp;
   const auto& mdp = domain_.mdp(world);

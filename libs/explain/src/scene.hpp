@@ -48,8 +48,8 @@ class Scene {
   template <typename Predicate>
   [[nodiscard]] std::optional<Contrast> any_best_way(DemoIndex demo, const Predicate& admits) const {
     constexpr auto kAnywhere = std::numeric_limits<std::size_t>::max();
-    return atlas_.is_tabulated() ? best_contrast(atlas_, demo, admits)
-                                 : best_deviation(atlas_, demo, 0, kAnywhere, admits);
+    return atlas_.find_tables() ? best_contrast(atlas_, demo, admits)
+                                : best_deviation(atlas_, demo, 0, kAnywhere, admits);
   }
   // The same among those that are no detour.
   template <typename Predicate>

@@ -38,7 +38,7 @@ TEST(ContrastWith, FollowsTheRobotAsLongAsItCanAndThenEndsAsTheVertexSays) {
     const auto& atlas = atlas_of(name);
     for (std::size_t d = 0; d < atlas.num_demos(); d += 37) {
       const DemoIndex demo{d};
-      for (const auto& vertex : atlas.coverage_set(demo)) {
+      for (const auto& vertex : atlas.tables().coverage_set(demo)) {
         if (vertex == atlas.feature_counts(demo)) continue;
         const auto contrast = contrast_with(atlas, demo, 0, vertex);
         const auto world = atlas.id(demo).mdp;
@@ -67,7 +67,7 @@ TEST(ContrastFor, ConveysTheConstraint) {
   const auto& atlas = atlas_of("item-delivery");
   std::size_t found = 0;
   for (std::size_t d = 0; d < atlas.num_demos(); d += 53) {
-    for (const auto c : atlas.robot_cell_facets(DemoIndex{d}).members()) {
+    for (const auto c : atlas.tables().robot_cell_facets(DemoIndex{d}).members()) {
       const auto& constraint = atlas.constraints()[c];
       const auto contrast = contrast_for(atlas, DemoIndex{d}, constraint);
       if (!contrast) continue;
@@ -135,7 +135,7 @@ void expect_contrast_without_tables(const Atlas& atlas, DemoIndex demo, const Ha
 
 // Every constraint of a demonstration, which is a comparison with one other action. Returns how many there were.
 std::size_t expect_contrasts_without_tables(const Atlas& atlas, std::size_t stride) {
-  EXPECT_FALSE(atlas.is_tabulated());
+  EXPECT_FALSE(atlas.find_tables());
   std::size_t tried = 0;
   for (std::size_t d = 0; d < atlas.num_demos(); d += stride) {
     if (!atlas.is_candidate(DemoIndex{d})) continue;

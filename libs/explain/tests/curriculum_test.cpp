@@ -37,7 +37,7 @@ void expect_claims_hold(const Atlas& atlas, const Curriculum& curriculum) {
       for (const auto s : shown.contrast.robot.states) {
         if (domain.mdp(atlas.id(shown.demo).mdp).is_terminal(s)) continue;
         const auto here = atlas.index({atlas.id(shown.demo).mdp, s});
-        for (const auto& vertex : atlas.coverage_set(here)) {
+        for (const auto& vertex : atlas.tables().coverage_set(here)) {
           if (vertex == atlas.feature_counts(here)) continue;
           conveyed = conveyed || constraint_of(atlas.feature_counts(here), vertex) == shown.main;
         }
@@ -112,7 +112,8 @@ TEST(Curriculum, SharesAgreeWithAnIndependentCount) {
   for (const auto& test : first.tests) {
     int right = 0;
     for (int i = 0; i < kDraws; ++i) {
-      const auto answer = atlas.answer(test.demo, atlas.cells().locate(atlas.prior_cone().sample(random)));
+      const auto answer =
+          atlas.tables().answer(test.demo, atlas.tables().cells().locate(atlas.prior_cone().sample(random)));
       right += answer == atlas.feature_counts(test.demo) ? 1 : 0;
     }
     // Four standard errors of a share.

@@ -56,7 +56,8 @@ TEST(SimplestIsolating, FindsTestsThatDiscriminateTheConstraintAlone) {
     EXPECT_EQ(demo.has_value(), one.testing > 0);
     if (!demo) continue;
     ++tests;
-    EXPECT_TRUE(same_weights(atlas, atlas.constraints().half_spaces(atlas.robot_cell_facets(*demo)), {one.constraint}));
+    EXPECT_TRUE(same_weights(atlas, atlas.constraints().half_spaces(atlas.tables().robot_cell_facets(*demo)),
+                             {one.constraint}));
   }
   EXPECT_GT(tests, 0u);
 }

@@ -101,7 +101,7 @@ class RunImport {
 
   void check_study() {
     const auto study_file = folder_ / "inputs" / "study.toml";
-    if (!atlas_->is_tabulated()) {
+    if (!atlas_->find_tables()) {
       throw Error{{detail::fault("E0711",
                                  "people are fitted in exact domains of three features only, where all that they could "
                                  "answer is known",
@@ -308,7 +308,7 @@ class RunImport {
     std::set<HalfSpace> possible;
     for (const auto& answered : answers) {
       const auto demo = answered.demo;
-      const auto facets = atlas_->finite_region(demo).facets();
+      const auto facets = atlas_->tables().finite_region(demo).facets();
       possible.insert(facets.begin(), facets.end());
       period.all_correct = period.all_correct && answered.correct;
       for (const auto& half_space : answered.covered) {  // once, however many test sets examined it: as Session does
@@ -331,7 +331,7 @@ class RunImport {
       return;
     }
     period.given.push_back({demo, *answered.answer});
-    const auto coverage = atlas_->coverage_set(demo);
+    const auto coverage = atlas_->tables().coverage_set(demo);
     const bool known = std::find(coverage.begin(), coverage.end(), *answered.answer) != coverage.end();
     if (detail_ == AnswerDetail::kPath && known) {
       AnswerRegion region;
@@ -343,7 +343,8 @@ class RunImport {
       return;
     }
     if (detail_ == AnswerDetail::kPath) ++num_unknown_paths_;
-    period.answers.push_back({atlas_->constraints().half_spaces(atlas_->robot_cell_facets(demo)), answered.correct});
+    period.answers.push_back(
+        {atlas_->constraints().half_spaces(atlas_->tables().robot_cell_facets(demo)), answered.correct});
     period.chance /= 2.0;
   }
 

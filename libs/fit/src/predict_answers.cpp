@@ -42,7 +42,7 @@ class AskedWorld {
  public:
   explicit AskedWorld(const RecordedWorld& world)
       : atlas_{world.domain}, test_{atlas_.index({MdpIndex{0}, world.domain.initial_state(MdpIndex{0})})} {
-    for (const auto& path : atlas_.coverage_set(test_)) {
+    for (const auto& path : atlas_.tables().coverage_set(test_)) {
       paths_.push_back(path);
       right_.push_back(judge_path(atlas_.domain(), atlas_.feature_counts(test_), path).is_right);
     }
@@ -79,7 +79,7 @@ class AskedWorld {
     double sum = 0.0, possible = 0.0;
     for (std::size_t i = 0; i < belief.size(); ++i) {
       const auto point = belief.point(i);
-      const auto best = atlas_.answer(test_, atlas_.cells().locate(point));
+      const auto best = atlas_.tables().answer(test_, atlas_.tables().cells().locate(point));
       if (!best) continue;
       possible += belief.weights()[i];
       sum += belief.weights()[i] * f(point, *best);

@@ -45,9 +45,9 @@ AnswerEvidence::AnswerEvidence(const Atlas& atlas, std::span<const GivenAnswer> 
   double chance = 1.0;
   bool is_best_for_nobody = false;
   for (const auto& [test, counts] : answers) {
-    const auto facets = atlas.finite_region(test).facets();
+    const auto facets = atlas.tables().finite_region(test).facets();
     possible.insert(possible.end(), facets.begin(), facets.end());
-    const auto coverage = atlas.coverage_set(test);
+    const auto coverage = atlas.tables().coverage_set(test);
     auto& region = regions.emplace_back();
     bool is_known = false;
     for (const auto& other : coverage) {

@@ -40,7 +40,7 @@ std::vector<double> weights_with_answers(const Atlas& atlas, const ParticleBelie
   std::vector<double> weights(belief.weights().begin(), belief.weights().end());
   std::vector<HalfSpace> facets;  // of all finite regions; many tests share theirs
   for (const auto test : tests) {
-    for (const HalfSpace& facet : atlas.finite_region(test).facets()) {
+    for (const HalfSpace& facet : atlas.tables().finite_region(test).facets()) {
       if (std::find(facets.begin(), facets.end(), facet) == facets.end()) facets.push_back(facet);
     }
   }
@@ -141,8 +141,8 @@ std::optional<double> BayesianLearner::likelihood(const AnswerEvidence& evidence
 Learner::Response BayesianLearner::answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
                                           std::size_t period) const {
   const auto random = random_.split("answer").split(period);
-  return behaviours.atlas().is_tabulated() ? tabulated_answer(behaviours, tests, random)
-                                           : planned_answer(behaviours, tests, random);
+  return behaviours.atlas().find_tables() ? tabulated_answer(behaviours, tests, random)
+                                          : planned_answer(behaviours, tests, random);
 }
 
 Learner::Response BayesianLearner::tabulated_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,

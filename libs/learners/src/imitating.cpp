@@ -30,7 +30,7 @@ std::optional<Transfer> transferred(const Atlas& atlas, DemoIndex demonstration,
     if (found == choices.end()) return std::nullopt;
     return static_cast<std::size_t>(found - choices.begin());
   };
-  if (!atlas.is_tabulated()) {
+  if (!atlas.find_tables()) {
     const auto choice = choice_of(id.start, atlas.action(demonstration));
     if (!choice) return std::nullopt;
     return Transfer{atlas.deviation_counts(test, *choice), std::nullopt};
@@ -93,7 +93,7 @@ class ImitatingLearner final : public LikeBayesian {
     return mean_over_cells(*person_.belief(), evidence, [&](PolicyCellIndex cell) {
       double product = 1.0;
       for (std::size_t t = 0; t < given.size() && product > 0.0; ++t) {
-        const auto own = atlas.answer(given[t].test, cell);
+        const auto own = atlas.tables().answer(given[t].test, cell);
         if (!own) return 0.0;
         double sum = 0.0, copies = 0.0;
         for (std::size_t d = 0; d < shown_.size(); ++d) {
@@ -122,7 +122,7 @@ class ImitatingLearner final : public LikeBayesian {
   [[nodiscard]] static IntegerVector path(const Atlas& atlas, const Transfer& copied,
                                           const std::optional<PolicyCellIndex>& cell, const IntegerVector& own) {
     if (!copied.rest) return copied.counts;
-    const auto rest = atlas.answer(*copied.rest, *cell);
+    const auto rest = atlas.tables().answer(*copied.rest, *cell);
     return rest ? copied.counts + *rest : own;
   }
 

@@ -81,7 +81,7 @@ std::optional<double> mean_over_weights(const ParticleBelief& belief, const Answ
                                      [&](const HalfSpace& h) { return h.contains(point); });
     if (!answers) continue;
     possible += weights[i];
-    sum += weights[i] * f(point, evidence.atlas().cells().locate(point));
+    sum += weights[i] * f(point, evidence.atlas().tables().cells().locate(point));
   }
   if (!(possible > 0.0)) return std::nullopt;
   return std::min(sum / possible, 1.0);
@@ -90,7 +90,7 @@ std::optional<double> mean_over_weights(const ParticleBelief& belief, const Answ
 // The same for what depends on the policy cell alone, which is computed once for every cell.
 template <typename F>
 std::optional<double> mean_over_cells(const ParticleBelief& belief, const AnswerEvidence& evidence, F f) {
-  std::vector<double> known(evidence.atlas().cells().size(), -1.0);
+  std::vector<double> known(evidence.atlas().tables().cells().size(), -1.0);
   return mean_over_weights(belief, evidence, [&](const Direction& /*point*/, PolicyCellIndex cell) {
     auto& value = known[cell.value()];
     if (value < 0.0) value = f(cell);

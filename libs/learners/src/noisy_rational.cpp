@@ -47,7 +47,7 @@ class NoisyRationalLearner final : public LikeBayesian {
     std::vector<std::vector<IntegerVector>> paths;
     std::vector<std::size_t> number;
     for (const auto& one : given) {
-      const auto& all = paths.emplace_back(atlas.coverage_set(one.test));
+      const auto& all = paths.emplace_back(atlas.tables().coverage_set(one.test));
       number.push_back(static_cast<std::size_t>(std::find(all.begin(), all.end(), one.counts) - all.begin()));
       if (number.back() == all.size()) return 0.0;  // best for nobody
     }
@@ -63,7 +63,7 @@ class NoisyRationalLearner final : public LikeBayesian {
   // others.
   [[nodiscard]] std::vector<IntegerVector> paths_at(Behaviours& behaviours, DemoIndex test,
                                                     const IntegerVector& own) const {
-    if (behaviours.atlas().is_tabulated()) return behaviours.atlas().coverage_set(test);
+    if (const auto* tables = behaviours.atlas().find_tables()) return tables->coverage_set(test);
     std::vector<IntegerVector> paths{own};
     for (const auto& weights : others_) {
       auto path = behaviours.answer(test, behaviours.locate(weights));

@@ -65,7 +65,7 @@ class SlippingLearner final : public LikeBayesian {
     return mean_over_cells(*person_.belief(), evidence, [&](PolicyCellIndex cell) {
       double product = 1.0;
       for (std::size_t t = 0; t < paths.size(); ++t) {
-        const auto own = atlas.answer(paths[t].test, cell);
+        const auto own = atlas.tables().answer(paths[t].test, cell);
         product *= own ? probability(atlas, paths[t], *own, slips[t]) : 0.0;
       }
       return product;

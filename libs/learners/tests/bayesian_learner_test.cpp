@@ -135,10 +135,10 @@ TEST(BayesianLearner, AnswersAllTestsFromOneWeightThatHasAnOptimumInAllOfThem) {
   for (std::size_t period = 1; period <= 200; ++period) {
     const auto response = learner.answer(behaviours, tests, period);
     ASSERT_TRUE(response.weights.has_value());
-    const auto cell = atlas.cells().locate(*response.weights);
+    const auto cell = atlas.tables().cells().locate(*response.weights);
     for (std::size_t t = 0; t < tests.size(); ++t) {
       ASSERT_TRUE(response.answers[t].has_value());
-      EXPECT_EQ(response.answers[t], atlas.answer(tests[t], cell));
+      EXPECT_EQ(response.answers[t], atlas.tables().answer(tests[t], cell));
     }
   }
 }

@@ -240,7 +240,7 @@ TEST_P(LearnerLaws, LikelihoodsAreTheFrequenciesOfAnswers) {
         ++answered;
       }
       ASSERT_GT(answered, 0);
-      for (const auto& answer : item_delivery().coverage_set(test)) counts.try_emplace(answer, 0);
+      for (const auto& answer : item_delivery().tables().coverage_set(test)) counts.try_emplace(answer, 0);
       double sum = 0.0;
       for (const auto& [answer, count] : counts) {
         const double p = std::exp(log_likelihood(*learner, evidence_of(test, answer)));
@@ -282,7 +282,7 @@ TEST_P(LearnerLaws, LikelihoodsOfSeveralAnswersAreTheFrequenciesOfAllTogether) {
 
 TEST_P(LearnerLaws, GuessingHasTheProbabilityOfChance) {
   const auto learner = person(7);
-  const auto answer = item_delivery().coverage_set(kTests[0])[0];
+  const auto answer = item_delivery().tables().coverage_set(kTests[0])[0];
   const auto evidence = evidence_of(kTests[0], answer);
   EXPECT_DOUBLE_EQ(log_likelihood(*learner, evidence, 1.0), std::log(evidence.chance()));
   EXPECT_EQ(log_likelihood(*learner, AnswerEvidence{{}, {}, 1.0}, 0.5), 0.0);

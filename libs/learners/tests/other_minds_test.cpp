@@ -79,7 +79,7 @@ TEST(OtherMinds, PressAWrongKeyInSpiteOfKnowingBetter) {
     const auto answer = who.answer(behaviours, std::array{test}, draw).answers.front();
     return judge_path(atlas.domain(), atlas.feature_counts(test), answer.value()).is_right;
   };
-  const auto coverage = atlas.coverage_set(test);
+  const auto coverage = atlas.tables().coverage_set(test);
   int knew = 0, slipped = 0, by_nobody = 0;
   for (std::size_t draw = 1; draw <= n; ++draw) {
     if (!right(*knowing, draw)) continue;
@@ -113,7 +113,7 @@ TEST(OtherMinds, TakePathsByWhatTheyAreWorth) {
   const auto bayesian = somebody(bayesian_model(), {});
   const auto random = somebody(noisy_rational_model(), {{"rationality", 0.0}});
   const DemoIndex test{9000};
-  const auto coverage = atlas.coverage_set(test);
+  const auto coverage = atlas.tables().coverage_set(test);
   std::vector<int> counts(coverage.size(), 0);
   int same = 0;
   constexpr int n = 1000;

@@ -211,17 +211,17 @@ TEST(Judge, IsTheSameForTestsExamsLessonsAndTablesOfExactDomains) {
     SCOPED_TRACE(name);
     const auto atlas = testing::atlas_of(name);
     TeachingCache cache{atlas};
-    ASSERT_TRUE(atlas->is_tabulated());
+    ASSERT_TRUE(atlas->find_tables());
     expect_session_agrees(cache, RandomStream{36}.split(name));
     expect_curriculum_agrees(cache);
     const GradeTable table{*atlas};
     RandomStream random = RandomStream{37}.split(name);
     for (int i = 0; i < 3000; ++i) {
-      const PolicyCellIndex cell{uniform_index(atlas->cells().size(), random)};
+      const PolicyCellIndex cell{uniform_index(atlas->tables().cells().size(), random)};
       const DemoIndex demo{uniform_index(atlas->num_demos(), random)};
-      const auto answer = atlas->answer(demo, cell);
+      const auto answer = atlas->tables().answer(demo, cell);
       const bool is_right = answer && judge_path(atlas->domain(), atlas->feature_counts(demo), *answer).is_right;
-      EXPECT_EQ(table.is_right(cell, atlas->hull(demo)), is_right);
+      EXPECT_EQ(table.is_right(cell, atlas->tables().hull(demo)), is_right);
       EXPECT_EQ(grade_answer(*atlas, demo, answer).share_right, is_right ? 1.0 : 0.0);
     }
   }

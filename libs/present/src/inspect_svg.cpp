@@ -141,13 +141,13 @@ SvgFile coverage_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
   const auto path = atlas.trajectory(atlas.index({m, domain.initial_state(m)}));
   Sheet sheet{boards, fmt::format("How many ways people could expect from where the robot stands, {} of {}",
                                   world_text(domain, m), domain.id())};
-  const auto largest = std::max<std::size_t>(2, atlas.coverage().max);
+  const auto largest = std::max<std::size_t>(2, atlas.tables().coverage().max);
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
     for_each_cell_from_bottom(map, [&](const Cell& cell) {
       const auto state = map.find_state(m, with_robot_at(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) return;
-      const auto n = atlas.coverage_set(atlas.index({m, *state})).size();
+      const auto n = atlas.tables().coverage_set(atlas.index({m, *state})).size();
       boards.number(board, cell, n, static_cast<double>(n - 1) / static_cast<double>(largest - 1));
     });
     sheet.add(std::move(board), configuration_in_words(map, m, configuration));
@@ -200,7 +200,7 @@ SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
   auto own = boards.board(m, start);
   own.add(0, 0, boards.path(m, atlas.trajectory(demo), "#0b5cad"));
   sheet.add(std::move(own), "the robot's own: " + counts_text(domain, robot));
-  for (const auto& vertex : atlas.coverage_set(demo)) {
+  for (const auto& vertex : atlas.tables().coverage_set(demo)) {
     if (vertex == robot) continue;
     const auto contrast = contrast_with(atlas, demo, 0, vertex);
     auto board = boards.board(m, start);
@@ -226,7 +226,7 @@ std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
   const auto map = atlas.domain().drawing();
   if (!map) return {region_picture(atlas)};
   const BoardSvg boards{*map};
-  if (!atlas.is_tabulated()) return {region_picture(atlas), likely_picture(atlas, *map, boards, m)};
+  if (!atlas.find_tables()) return {region_picture(atlas), likely_picture(atlas, *map, boards, m)};
   return {region_picture(atlas), coverage_picture(atlas, *map, boards, m), expected_picture(atlas, *map, boards, m)};
 }
 

@@ -111,7 +111,7 @@ TEST(JudgedPeople, WhoHaveNoRightAnswerAreNotSaidToUnderstand) {
       for (auto& period : observed[m]) {
         for (std::size_t t = 0; t < period.tests.size(); ++t) {
           const auto demo = period.tests[t].demo;
-          auto losses = item_delivery().hull(item_delivery().hull(demo)).losses;
+          auto losses = item_delivery().tables().hull(item_delivery().tables().hull(demo)).losses;
           std::erase_if(losses, [](const auto& one) { return !costs(one); });
           ASSERT_FALSE(losses.empty());
           auto loss = losses[uniform_index(losses.size(), random)];

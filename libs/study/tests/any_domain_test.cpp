@@ -125,7 +125,7 @@ TEST(AnyDomain, TwoFeaturesAreTaught) { expect_taught(Atlas{domain_from(kTwoFeat
 
 TEST(AnyDomain, FourFeaturesAreTaughtInAFewPartsThenTogether) {
   const Atlas atlas{domain_from(kFourFeatures)};
-  EXPECT_FALSE(atlas.is_tabulated());
+  EXPECT_FALSE(atlas.find_tables());
   std::vector<std::string> names;
   for (const auto& component : atlas.knowledge_components()) names.push_back(component.name);
   EXPECT_GE(names.size(), 2u);

@@ -29,7 +29,7 @@ std::span<const std::uint32_t> PointCells::of(const Atlas& atlas, const Particle
     cells_.resize(belief.size());
     const auto x = belief.x(), y = belief.y(), z = belief.z();
     for (std::size_t i = 0; i < belief.size(); ++i) {
-      cells_[i] = static_cast<std::uint32_t>(atlas.cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value());
+      cells_[i] = static_cast<std::uint32_t>(atlas.tables().cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value());
     }
   }
   return cells_;
@@ -37,11 +37,11 @@ std::span<const std::uint32_t> PointCells::of(const Atlas& atlas, const Particle
 
 AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
                      std::span<const Verdict> verdicts)
-    : atlas_{&atlas} {
+    : atlas_{&atlas}, tables_{atlas.find_tables()} {
   constexpr double kChance = 0.25;  // where behaviours are not tabulated
-  if (atlas.is_tabulated()) {
-    factor_of_cell_.assign(atlas.cells().size(), 1.0);
-    num_right_of_cell_.assign(atlas.cells().size(), 0);
+  if (tables_) {
+    factor_of_cell_.assign(tables_->cells().size(), 1.0);
+    num_right_of_cell_.assign(tables_->cells().size(), 0);
   }
   for (auto& guess : guesses_) guess.right = {1.0};
   for (std::size_t t = 0; t < tests.size() && t < answers.size(); ++t) {
@@ -49,7 +49,7 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
     OneTest test{.chance = kChance, .right_by_chance = kChance};
     auto answered_by = verdicts[t].half_spaces;
     const bool is_impossible = is_beyond_prior(atlas, answered_by);
-    if (atlas.is_tabulated()) {
+    if (tables_) {
       read_cells(tests[t], *answers[t], test);
     } else {
       const auto examined =
@@ -77,8 +77,8 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
 // What people of each policy cell answer to a test.
 void AnswerFit::read_cells(const Test& asked, const IntegerVector& answer, OneTest& test) {
   const auto& domain = atlas_->domain();
-  const auto hull = atlas_->hull(asked.demo);
-  const auto& losses = atlas_->hull(hull).losses;
+  const auto hull = tables_->hull(asked.demo);
+  const auto& losses = tables_->hull(hull).losses;
   const auto given = std::find(losses.begin(), losses.end(), atlas_->feature_counts(asked.demo) - answer);
   test.by_cell = given != losses.end();
   test.by_nobody = !test.by_cell;
@@ -89,7 +89,7 @@ void AnswerFit::read_cells(const Test& asked, const IntegerVector& answer, OneTe
   test.right_by_chance = static_cast<double>(std::count(is_right.begin(), is_right.end(), true)) * test.chance;
   const auto number = static_cast<std::size_t>(given - losses.begin());
   for (std::size_t c = 0; c < factor_of_cell_.size(); ++c) {
-    const auto choice = atlas_->cells().choice(PolicyCellIndex{c}, hull);
+    const auto choice = tables_->cells().choice(PolicyCellIndex{c}, hull);
     if (choice == PolicyCells::kNone) {
       factor_of_cell_[c] = -1.0;
       continue;
@@ -151,8 +151,7 @@ std::vector<double> AnswerFit::with_slips(const std::vector<double>& right) cons
 }
 
 bool AnswerFit::is_by_cells() const noexcept {
-  return atlas_->is_tabulated() &&
-         std::all_of(tests_.begin(), tests_.end(), [](const auto& test) { return test.by_cell; });
+  return tables_ != nullptr && std::all_of(tests_.begin(), tests_.end(), [](const auto& test) { return test.by_cell; });
 }
 
 AnswerFit::Rating AnswerFit::of(std::span<const double> cell_masses) const {
@@ -171,7 +170,7 @@ AnswerFit::Rating AnswerFit::of(std::span<const double> cell_masses) const {
 
 AnswerFit::Rating AnswerFit::of(const ParticleBelief& belief, PointCells& cells) const {
   const auto masses = belief.weights();
-  const bool tabulated = atlas_->is_tabulated();
+  const bool tabulated = tables_ != nullptr;
   const bool by_points = std::any_of(tests_.begin(), tests_.end(), [](const auto& test) { return !test.by_cell; });
   const auto inside = by_points ? locate(belief) : Inside{};
   const auto cell_of = tabulated ? cells.of(*atlas_, belief) : std::span<const std::uint32_t>{};

@@ -11,7 +11,7 @@ std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.m
 std::size_t TeachingCache::bytes_of_thread(const Atlas& atlas, std::size_t threads) {
   constexpr std::size_t kShared = std::size_t{192} << 20u;
   constexpr std::size_t kLeast = std::size_t{2} << 20u;
-  if (atlas.is_tabulated()) return kDefaultBytes;
+  if (atlas.find_tables()) return kDefaultBytes;
   return std::clamp(kShared / std::max<std::size_t>(threads, 1), kLeast, kDefaultBytes);
 }
 

@@ -10,6 +10,7 @@
 #include "kith/core/assert.hpp"
 #include "kith/geometry/cover.hpp"
 #include "visual_order.hpp"
+#include "whole_components.hpp"
 
 namespace kith {
 namespace {
@@ -284,7 +285,7 @@ void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& c
       if (!next) next = any.next(people.cells, shown, unit.demonstrations, random.split(step));
       if (next) break;
     }
-    if (!next && !people.cells.empty() && !cache.atlas().is_tabulated()) {
+    if (!next && !people.cells.empty() && teaches_whole_components(cache.atlas())) {
       const auto open = open_facets(cache, component.constraints, shown);
       people = who_miss(cache, component, shown, Missed::kComponent);
       next = fresh.next_for_the_endless(open, shown, unit.demonstrations, random.split(step));
@@ -309,8 +310,7 @@ Unit UnitSelector::for_belief(const ParticleBelief& belief, RandomStream random)
   const auto& component = view_->atlas.knowledge_components()[view_->component];
   auto unit = select_demonstrations(*cache_, belief, component, view_->taught_region, view_->visited, options_,
                                     random.split("new"));
-  // Without tables lessons examine the whole component (Session), so that they show it, too.
-  if (unit.demonstrations.empty() || !view_->atlas.is_tabulated()) complete(unit, random.split("open"));
+  if (unit.demonstrations.empty() || teaches_whole_components(view_->atlas)) complete(unit, random.split("open"));
   if (unit.demonstrations.empty() && view_->last_of_component != nullptr) {
     unit = select_demonstrations(*cache_, belief, component, view_->taught_region,
                                  VisitedDemos{view_->atlas.num_demos()}, options_, random.split("again"));

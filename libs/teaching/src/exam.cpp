@@ -39,11 +39,11 @@ Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
   const auto& atlas = behaviours.atlas();
   std::vector<DemoIndex> starts;
   std::vector<double> share_right;
-  if (atlas.is_tabulated()) {
+  if (const auto* tables = atlas.find_tables()) {
     table_.emplace(atlas);
-    std::vector<double> mass(atlas.cells().size(), 0.0);
+    std::vector<double> mass(tables->cells().size(), 0.0);
     for (std::size_t i = 0; i < cover.size(); ++i) mass[behaviours.locate(cover.point(i)).value()] += 1.0;
-    std::vector<double> of_hull(atlas.num_hulls(), 0.0);
+    std::vector<double> of_hull(tables->num_hulls(), 0.0);
     for (std::size_t h = 0; h < of_hull.size(); ++h) {
       for (std::size_t c = 0; c < mass.size(); ++c) {
         if (table_->is_right(PolicyCellIndex{c}, HullIndex{h})) of_hull[h] += mass[c];
@@ -52,7 +52,7 @@ Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
     for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
       if (!atlas.is_candidate(demo)) continue;
       starts.push_back(demo);
-      share_right.push_back(of_hull[atlas.hull(demo).value()]);
+      share_right.push_back(of_hull[tables->hull(demo).value()]);
     }
   } else {
     starts = sampled_starts(atlas);
@@ -115,8 +115,8 @@ void Exam::sort_by_difficulty(std::vector<DemoIndex> starts, const std::vector<d
 
 ExamGrades Exam::grade(const ParticleBelief& belief, Behaviours& behaviours) const {
   if (!table_) return grade_sample(belief, behaviours);
-  std::vector<double> mass(behaviours.atlas().cells().size(), 0.0);
-  const auto& cells = behaviours.atlas().cells();
+  const auto& cells = behaviours.atlas().tables().cells();
+  std::vector<double> mass(cells.size(), 0.0);
   const auto x = belief.x(), y = belief.y(), z = belief.z(), weights = belief.weights();
   for (std::size_t i = 0; i < weights.size(); ++i) {
     mass[cells.locate(Eigen::Vector3d{x[i], y[i], z[i]}).value()] += weights[i];

@@ -206,7 +206,7 @@ double LearnerBank::probability_of_ability(double at_least) const {
 }
 
 std::vector<double> LearnerBank::cell_masses(const Atlas& atlas, double stopping) {
-  std::vector<double> masses(atlas.cells().size(), 0.0);
+  std::vector<double> masses(atlas.tables().cells().size(), 0.0);
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
     const auto cells = cells_[h].of(atlas, beliefs_[h]);
     const auto weights = beliefs_[h].weights();

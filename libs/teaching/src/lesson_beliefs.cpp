@@ -16,7 +16,7 @@ double KnownBelief::mass_in(std::span<const HalfSpace> half_spaces) {
 AnswerFit::Rating KnownBelief::rating(const Atlas& atlas, const AnswerFit& fit) {
   if (!fit.is_by_cells()) return fit.of(belief_, *cells_);
   if (cell_masses_.empty()) {
-    cell_masses_.assign(atlas.cells().size(), 0.0);
+    cell_masses_.assign(atlas.tables().cells().size(), 0.0);
     const auto cells = cells_->of(atlas, belief_);
     for (std::size_t i = 0; i < cells.size(); ++i) cell_masses_[cells[i]] += belief_.weights()[i];
   }

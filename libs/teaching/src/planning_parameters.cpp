@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "whole_components.hpp"
+
 namespace kith {
 namespace {
 
@@ -102,7 +104,7 @@ Unit Lookahead::best_unit(TeachingCache& cache, const TeachingView& view,
   }
   auto imagined = imagine_people(cache, beliefs, people, random.split("people"));
   const auto& atlas = cache.atlas();
-  if (!atlas.is_tabulated()) {
+  if (teaches_whole_components(atlas)) {
     const auto& facets = atlas.knowledge_components()[view.component].constraints;
     imagine_near_misses(cache, facets | atlas.prior(), facets, kMiss, imagined);
   }

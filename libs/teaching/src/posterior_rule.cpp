@@ -7,13 +7,14 @@
 #include "kith/teaching/stop_rule.hpp"
 #include "kith/teaching/teaching_options.hpp"
 #include "kith/teaching/team_bank.hpp"
+#include "whole_components.hpp"
 
 namespace kith {
 namespace {
 
-// Without tables people are judged by beliefs that take the answers in: lessons stop showing what answers prove to be
-// known, and beliefs of the bank never learn of that.
-StopNeeds posterior_needs(const Atlas& atlas) { return {.bank = true, .beliefs = !atlas.is_tabulated()}; }
+// Where whole components are taught, people are judged by beliefs that take the answers in: lessons stop showing what
+// answers prove to be known, and beliefs of the bank never learn of that.
+StopNeeds posterior_needs(const Atlas& atlas) { return {.bank = true, .beliefs = teaches_whole_components(atlas)}; }
 
 class PosteriorRule : public StopRule {
  public:

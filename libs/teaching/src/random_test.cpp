@@ -5,19 +5,21 @@
 namespace kith {
 
 RandomTest::RandomTest(const Atlas& atlas, const Exam& exam, std::size_t component)
-    : atlas_{&atlas}, exam_{&exam}, component_{component} {
-  if (!atlas.is_tabulated()) {
-    facets_ = atlas.constraints().half_spaces(atlas.knowledge_components()[component].constraints);
+    : atlas_{&atlas}, table_{exam.table()}, component_{component} {
+  if (table_) {
+    for (const auto& test : table_->tests(component)) weights_.push_back(test.weight);
+    return;
   }
+  facets_ = atlas.constraints().half_spaces(atlas.knowledge_components()[component].constraints);
+  weights_.assign(facets_.size(), 1.0 / static_cast<double>(facets_.size()));
 }
 
 std::vector<double> RandomTest::right_in_cells(std::span<const double> masses) const {
-  const auto& table = exam_->table();
   std::vector<double> right;
-  for (const auto& test : table.tests(component_)) {
+  for (const auto& test : table_->tests(component_)) {
     double sum = 0.0;
     for (std::size_t c = 0; c < masses.size(); ++c) {
-      if (table.is_right(PolicyCellIndex{c}, test.hull)) sum += masses[c];
+      if (table_->is_right(PolicyCellIndex{c}, test.hull)) sum += masses[c];
     }
     right.push_back(sum);
   }
@@ -25,38 +27,36 @@ std::vector<double> RandomTest::right_in_cells(std::span<const double> masses) c
 }
 
 std::vector<double> RandomTest::right(const ParticleBelief& belief) const {
-  if (!atlas_->is_tabulated()) {
+  if (!table_) {
     std::vector<double> right;
     for (const auto& facet : facets_) right.push_back(belief.mass_in({&facet, 1}));
     return right;
   }
-  std::vector<double> masses(atlas_->cells().size(), 0.0);
+  const auto& cells = atlas_->tables().cells();
+  std::vector<double> masses(cells.size(), 0.0);
   const auto x = belief.x(), y = belief.y(), z = belief.z(), weights = belief.weights();
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    masses[atlas_->cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value()] += weights[i];
+    masses[cells.locate(Eigen::Vector3d{x[i], y[i], z[i]}).value()] += weights[i];
   }
   return right_in_cells(masses);
 }
 
 std::vector<double> RandomTest::right(LearnerBank& bank, double stopping) const {
-  if (atlas_->is_tabulated()) return right_in_cells(bank.cell_masses(*atlas_, stopping));
+  if (table_) return right_in_cells(bank.cell_masses(*atlas_, stopping));
   std::vector<double> right;
   for (const auto& facet : facets_) right.push_back(bank.mass_in({&facet, 1}));
   return right;
 }
 
 double RandomTest::all_right(std::span<const std::vector<double>> people) const {
-  const auto num_tests = atlas_->is_tabulated() ? exam_->table().tests(component_).size() : facets_.size();
   double expected = 0.0;
-  for (std::size_t t = 0; t < num_tests; ++t) {
+  for (std::size_t t = 0; t < weights_.size(); ++t) {
     std::vector<double> right;
     for (const auto& person : people) right.push_back(person[t]);
     std::sort(right.begin(), right.end());  // so that seats do not matter
     double all = 1.0;
     for (const double p : right) all *= p;
-    const double weight =
-        atlas_->is_tabulated() ? exam_->table().tests(component_)[t].weight : 1.0 / static_cast<double>(num_tests);
-    expected += weight * all;
+    expected += weights_[t] * all;
   }
   return expected;
 }

@@ -15,6 +15,7 @@
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/test_selection.hpp"
 #include "session_checks.hpp"
+#include "whole_components.hpp"
 
 namespace kith {
 namespace {
@@ -295,12 +296,11 @@ void Session::describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) c
   lesson.gain = std::log(cache.regions().of(cache.numbers_of(taught_before_)).area_sr / lesson.running_area_sr);
 }
 
-// What the tests of a lesson ask about: what it teaches and, where behaviours are not tabulated, also the facets of the
-// component's region that do not follow from that. There are many of them, a lesson may leave some out, and whoever
-// answers everything right is done with the component.
+// What the tests of a lesson ask about: what it teaches and, where whole components are taught, also the facets of the
+// component's region that do not follow from that. Whoever answers everything right is done with the component.
 std::vector<HalfSpace> Session::to_examine(const Lesson& lesson, TeachingCache& cache) const {
   auto examined = lesson.taught;
-  if (atlas_->is_tabulated()) return examined;
+  if (!teaches_whole_components(*atlas_)) return examined;
   const auto taught = atlas_->prior() | cache.numbers_of(lesson.taught);
   Cone region{atlas_->domain().num_features()};
   const bool has_room = region.clip(cache.constraints().half_spaces(taught));

@@ -66,10 +66,10 @@ void UnitValue::add_part(std::size_t member, const MemberHypothesis& hypothesis,
 void UnitValue::grade_points(TeachingCache& cache, std::size_t component) {
   const auto& atlas = cache.atlas();
   worth_.assign(mass_.size(), 0.0);
-  if (atlas.is_tabulated()) {
-    const auto& table = cache.exam().table();
+  if (const auto* tables = atlas.find_tables()) {
+    const auto& table = *cache.exam().table();
     for (std::size_t i = 0; i < worth_.size(); ++i) {
-      const auto cell = atlas.cells().locate(Eigen::Vector3d{axes_[0][i], axes_[1][i], axes_[2][i]});
+      const auto cell = tables->cells().locate(Eigen::Vector3d{axes_[0][i], axes_[1][i], axes_[2][i]});
       worth_[i] = options_.objective == TeachingObjective::kRegret ? -table.component(cell, component).regret
                                                                    : table.tests_right(cell, component);
     }

@@ -81,7 +81,7 @@ std::map<DemoIndex, Ranked> ranked_starts(const KnowledgeComponent& component, s
   std::map<DemoClassIndex, Ranked> of_class;
   for (const auto c : component.demo_classes) {
     auto both = taught;
-    for (const auto& half_space : atlas.constraints().half_spaces(atlas.conveyed(atlas.members(c).front(), cells)))
+    for (const auto& half_space : atlas.constraints().half_spaces(atlas.tables().conveyed(c, cells)))
       both.push_back(half_space);
     const auto left = Cone::intersection(both).value();
     Ranked ranked;

@@ -42,7 +42,7 @@ TEST(Exam, IsTheExpectationUnderTheBelief) {
   double right = 0.0;
   for (std::size_t i = 0; i < belief.size(); ++i) {
     const auto cell = cache.behaviours().locate(belief.point(i));
-    right += belief.weights()[i] * cache.exam().table().all(cell).share_right;
+    right += belief.weights()[i] * cache.exam().table()->all(cell).share_right;
   }
   EXPECT_NEAR(grades.all.share_right, right, 1e-12);
 }

@@ -65,7 +65,7 @@ class LearnerBankTest : public ::testing::Test {
     for (std::size_t i = 0; i < cover.size(); ++i) {
       const auto cell = cache_.behaviours().locate(cover.point(i));
       std::vector<Answer> answers;
-      for (const auto& test : asked) answers.push_back(item_delivery().answer(test.demo, cell));
+      for (const auto& test : asked) answers.push_back(item_delivery().tables().answer(test.demo, cell));
       bool is_wrong = false, has_answers = true;
       for (std::size_t t = 0; t < asked.size(); ++t) {
         has_answers = has_answers && answers[t].has_value();
@@ -115,7 +115,7 @@ TEST_F(LearnerBankTest, WeighsPathsThatAreBestForNobodyByTheirVerdicts) {
   const auto by_verdict = ratings_of(one, AnswerFit{item_delivery(), test, answers, verdicts});
   const auto silent = ratings_of(one, AnswerFit{item_delivery(), test, answers, std::vector{Verdict{}}});
   const double slip =
-      AnswerFit::slip() / (static_cast<double>(item_delivery().coverage_set(test.front().demo).size()) + 1.0);
+      AnswerFit::slip() / (static_cast<double>(item_delivery().tables().coverage_set(test.front().demo).size()) + 1.0);
   for (std::size_t h = 0; h < by_verdict.size(); ++h) {
     EXPECT_GT(by_verdict[h].likelihood, 0.1 * slip);
     EXPECT_LT(by_verdict[h].likelihood, slip);
@@ -186,7 +186,7 @@ TEST_F(LearnerBankTest, ExpectsAnswersWithProbabilitiesThatSumToOne) {
   std::vector<std::vector<Answer>> sets{{}};
   for (const auto& test : asked) {
     std::vector<std::vector<Answer>> longer;
-    auto paths = item_delivery().coverage_set(test.demo);
+    auto paths = item_delivery().tables().coverage_set(test.demo);
     auto detour = item_delivery().feature_counts(test.demo);
     detour[2] += 40;
     paths.push_back(detour);

@@ -88,7 +88,7 @@ void expect_what_is_examined_was_shown(const std::string& domain, std::size_t co
     EXPECT_EQ(session.status(), SessionStatus::kComplete) << where;  // what was skipped is implied by the lessons
     for (std::size_t k = 0; k < session.components().size(); ++k) {
       ASSERT_NE(session.components()[k], ComponentStatus::kOpen) << where;
-      if (session.components()[k] == ComponentStatus::kLearned && atlas.is_tabulated()) continue;
+      if (session.components()[k] == ComponentStatus::kLearned && atlas.find_tables()) continue;
       for (const auto& facet : atlas.constraints().half_spaces(atlas.knowledge_components()[k].constraints)) {
         EXPECT_FALSE(cuts(cache, shown, facet)) << where << ", component " << k << ": " << to_string(facet.normal());
       }

@@ -25,11 +25,11 @@ class RandomTestTest : public ::testing::Test {
 
 TEST_F(RandomTestTest, OfOnePersonIsTheShareOfTestsAnsweredCorrectly) {
   const auto belief = prior();
-  const auto& table = cache_.exam().table();
+  const auto& table = *cache_.exam().table();
   for (std::size_t k = 0; k < table.num_components(); ++k) {
     double expected = 0.0;
     for (std::size_t i = 0; i < belief.size(); ++i) {
-      expected += belief.weights()[i] * table.tests_right(item_delivery().cells().locate(belief.point(i)), k);
+      expected += belief.weights()[i] * table.tests_right(item_delivery().tables().cells().locate(belief.point(i)), k);
     }
     const RandomTest test{item_delivery(), cache_.exam(), k};
     EXPECT_NEAR(test.all_right(People{test.right(belief)}), expected, 1e-12);

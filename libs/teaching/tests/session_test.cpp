@@ -44,7 +44,7 @@ std::vector<std::vector<Answer>> all_right(const Session& session) {
 
 // A path that is worse than the robot's: another vertex of the coverage set.
 IntegerVector worse_answer(DemoIndex test) {
-  for (const auto& vertex : item_delivery().coverage_set(test)) {
+  for (const auto& vertex : item_delivery().tables().coverage_set(test)) {
     if (vertex != item_delivery().feature_counts(test)) return vertex;
   }
   throw std::logic_error{"a test without an alternative does not discriminate"};
@@ -243,10 +243,10 @@ TEST(Session, ARightAnswerByAnotherPathIsNoEvidence) {
     while (session.propose(cache)) {
       std::vector<Answer> answers;
       for (const auto& test : session.lesson().tests) {
-        const auto& paths = atlas.coverage_set(test.demo);
+        const auto& paths = atlas.tables().coverage_set(test.demo);
         answers.emplace_back(paths[uniform_index(paths.size(), random)]);
         if (session.periods() % 4 == 3) answers.back() = atlas.feature_counts(test.demo);
-        for (const auto& path : atlas.coverage_set(test.demo)) {
+        for (const auto& path : atlas.tables().coverage_set(test.demo)) {
           const auto loss = atlas.feature_counts(test.demo) - path;
           const bool as_good = sign_of_dot(atlas.domain().weights().integer, loss) == 0;
           if (as_good && path != atlas.feature_counts(test.demo)) answers.back() = path;

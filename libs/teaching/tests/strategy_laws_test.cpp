@@ -46,7 +46,7 @@ class EveryKind : public ::testing::TestWithParam<std::size_t> {
       auto random = person(i).split("answers").split(session.periods());
       auto& list = all.emplace_back();
       for (const auto& test : session.lesson().tests) {
-        const auto paths = item_delivery().coverage_set(test.demo);
+        const auto paths = item_delivery().tables().coverage_set(test.demo);
         list.emplace_back(paths[uniform_index(paths.size(), random)]);
       }
     }

@@ -65,7 +65,7 @@ std::set<DemoIndex> testers(const Atlas& atlas, const KnowledgeComponent& compon
   if (!number) return {};
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
     if (!atlas.is_candidate(demo) || !is_in(atlas, component, demo)) continue;
-    if (!atlas.one_step(demo).contains(*number) || !atlas.robot_cell_facets(demo).contains(*number)) continue;
+    if (!atlas.one_step(demo).contains(*number) || !atlas.tables().robot_cell_facets(demo).contains(*number)) continue;
     all.insert(demo);
     const bool shown = std::any_of(visited.in_order().begin(), visited.in_order().end(), [&](DemoIndex one) {
       return atlas.trajectory_class(one) == atlas.trajectory_class(demo);
@@ -127,7 +127,7 @@ TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     auto both = atlas.no_constraints();
-    for (const auto c : atlas.robot_cell_facets(demo).members()) {
+    for (const auto c : atlas.tables().robot_cell_facets(demo).members()) {
       if (atlas.one_step(demo).contains(c)) both.insert(c);
     }
     if (both.count() > several.count()) several = both;

@@ -37,7 +37,7 @@ TEST_F(UnitValueTest, OfNothingIsWhatMembersKnow) {
   double expected = 0.0;
   for (std::size_t i = 0; i < novice_.size(); ++i) {
     expected +=
-        novice_.weights()[i] * cache_.exam().table().tests_right(cache_.behaviours().locate(novice_.point(i)), 0);
+        novice_.weights()[i] * cache_.exam().table()->tests_right(cache_.behaviours().locate(novice_.point(i)), 0);
   }
   EXPECT_NEAR(value(members, ties).of_nothing(), expected, 1e-9);
 }

@@ -80,7 +80,7 @@ class Guesser final : public Learner {
  private:
   [[nodiscard]] IntegerVector path(const Atlas& atlas, DemoIndex test, RandomStream& random) const {
     const auto& robot = atlas.feature_counts(test);
-    const auto& losses = atlas.hull(atlas.hull(test)).losses;
+    const auto& losses = atlas.tables().hull(atlas.tables().hull(test)).losses;
     const auto step = robot.size() - 1;
     auto chosen = robot - losses[uniform_index(losses.size(), random)];
     for (const auto& loss : losses) {

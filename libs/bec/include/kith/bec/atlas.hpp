@@ -2,14 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "kith/bec/behaviour_tables.hpp"
 #include "kith/bec/constraint_table.hpp"
 #include "kith/bec/knowledge_component.hpp"
-#include "kith/bec/policy_cells.hpp"
 #include "kith/bec/regions.hpp"
 #include "kith/domains/domain.hpp"
 #include "kith/geometry/eigen.hpp"
@@ -17,22 +18,16 @@
 
 namespace kith {
 
-/// A (MDP, start) pair's position among all of a domain's, MDP by MDP.
-using DemoIndex = Index<struct DemoTag>;
-
 /// How an Atlas knows what learners would do.
 enum class BehaviourSource {
   kAutomatic,  ///< kTabulated where that is possible and cheap, else kOnDemand.
-  kTabulated,  ///< Coverage sets and policy cells of all weights, found once.
+  kTabulated,  ///< BehaviourTables, found once.
   kOnDemand,   ///< Planned when a weight is met: Behaviours remembers them.
 };
 
-/// Everything about a domain that does not depend on who is taught: the robot's
-/// trajectories, one-step constraints and knowledge components. Where all MDPs
-/// are exact (Domain::is_exact()), small and of three features also the coverage sets and
-/// the policy cell of every weight, so that "what would this person expect the
-/// robot to do?" is a look-up; elsewhere that is planned on demand. Behaviours answers
-/// it either way.
+/// Everything about a domain that does not depend on who is taught: what the robot shows, that is, its trajectories,
+/// one-step constraints and knowledge components. What people expect of it is Behaviours' to say, by tables where the
+/// atlas has them (all MDPs exact, small and of three features), else by plans.
 ///
 /// Comparisons of equally good paths with different feature counts hold with
 /// equality at the robot's weights. If all of them together leave a region they
@@ -51,8 +46,13 @@ class Atlas {
   explicit Atlas(Domain domain, BehaviourSource source = BehaviourSource::kAutomatic);
 
   [[nodiscard]] const Domain& domain() const noexcept { return domain_; }
-  /// Whether behaviours are tabulated. What is marked so below is for tabulated ones only.
-  [[nodiscard]] bool is_tabulated() const noexcept { return tabulated_; }
+  /// What people would do, where that is tabulated; nothing where it is planned on demand.
+  [[nodiscard]] const BehaviourTables* find_tables() const noexcept { return tables_.get(); }
+  /// The same. @throws kith::Error (kInfeasible) if there are none.
+  [[nodiscard]] const BehaviourTables& tables() const {
+    if (!tables_) refuse_tables();
+    return *tables_;
+  }
   [[nodiscard]] const ConstraintTable& constraints() const noexcept { return constraints_; }
   /// The prior's half-spaces as constraints and as a cone.
   [[nodiscard]] const ConstraintSet& prior() const noexcept { return prior_; }
@@ -123,50 +123,19 @@ class Atlas {
   /// z_k: how many rows of all demonstrations' one-step minimal sets have a non-zero k-th entry, shape [d].
   [[nodiscard]] const std::vector<std::size_t>& mask_counters() const noexcept { return mask_counters_; }
 
-  // --- what a learner would do: tabulated behaviours only --------------------
-  [[nodiscard]] const PolicyCells& cells() const noexcept { return cells_; }
-  [[nodiscard]] std::size_t num_hulls() const noexcept { return hulls_.size(); }
-  [[nodiscard]] HullIndex hull(DemoIndex demo) const { return demos_[demo.value()].hull; }
-  [[nodiscard]] const Hull& hull(HullIndex h) const { return hulls_[h.value()]; }
-  /// Vertices of the coverage set of every start state: in all and at most.
-  struct Coverage {
-    std::size_t vertices = 0;
-    double mean = 0.0;
-    std::size_t max = 0;
-  };
-  [[nodiscard]] const Coverage& coverage() const noexcept { return coverage_; }
-  /// The feature counts of the coverage set of a start state, sorted.
-  /// @throws kith::Error (kInfeasible) unless is_tabulated().
-  [[nodiscard]] std::vector<IntegerVector> coverage_set(DemoIndex demo) const;
-  /// Feature counts of the path that a person of this cell takes, or nothing if they have no optimum there.
-  [[nodiscard]] std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell) const;
-  /// Whether weights have a finite optimum in the demonstration's MDP (strictly inside its region).
-  [[nodiscard]] const Cone& finite_region(DemoIndex demo) const { return hulls_[hull(demo).value()].finite_region; }
-  /// Constraints that tell the robot's path from the next best ones at the start: the facets of its cell in the
-  /// coverage set.
-  [[nodiscard]] const ConstraintSet& robot_cell_facets(DemoIndex demo) const {
-    return hull_facets_[hull(demo).value()];
-  }
-  /// Constraints that a right answer shows: robot_cell_facets() where behaviours are tabulated, else one_step(), of
-  /// which they are some. @pre is_candidate(demo).
-  [[nodiscard]] const ConstraintSet& tested_constraints(DemoIndex demo) const {
-    return tabulated_ ? robot_cell_facets(demo) : one_step(demo);
-  }
-
-  // --- counterfactuals ------------------------------------------------------
+  // --- classes that convey the same -----------------------------------------
   [[nodiscard]] std::size_t num_demo_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] DemoClassIndex demo_class(DemoIndex demo) const { return demos_[demo.value()].demo_class; }
   /// In ascending order; all are candidates.
-  [[nodiscard]] std::span<const DemoIndex> members(DemoClassIndex c) const { return classes_[c.value()].members; }
-  /// Tabulated only: what demonstrations convey to people who hold weights of the given cells: per class, one row of
-  /// words, the union over cells and over the states s_t of the path of mu_robot(s_t) - mu_learner(s_t).
-  /// Cells without an optimum in the MDP contribute nothing. Shape [num_demo_classes, words_per_set()].
-  [[nodiscard]] std::vector<std::uint64_t> conveyed_by_class(std::span<const PolicyCellIndex> cells) const;
-  /// Tabulated only: the same for one demonstration, not reduced.
-  [[nodiscard]] ConstraintSet conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) const;
+  [[nodiscard]] std::span<const DemoIndex> members(DemoClassIndex c) const { return classes_[c.value()]; }
   [[nodiscard]] std::size_t words_per_set() const noexcept { return (constraints_.size() + 63) / 64; }
 
   // --- tests ----------------------------------------------------------------
+  /// Constraints that a right answer shows: BehaviourTables::robot_cell_facets() where behaviours are tabulated, else
+  /// one_step(), of which they are some. @pre is_candidate(demo).
+  [[nodiscard]] const ConstraintSet& tested_constraints(DemoIndex demo) const {
+    return tables_ ? tables_->robot_cell_facets(demo) : one_step(demo);
+  }
   /// Demonstrations whose one-step set contains c and, where behaviours are tabulated, whose start discriminates c (it
   /// is a facet of the robot's cell there): what can test c. Ascending; none for constraints that are not in
   /// constraints().
@@ -195,21 +164,15 @@ class Atlas {
     std::uint32_t one_step = 0;  // row of one_step_sets_
     std::uint32_t trajectory_class = 0;
     int mean_dissimilarity = 0;
-    HullIndex hull;
     DemoClassIndex demo_class = kNoClass;
     std::uint32_t next = kTerminal;  // demo index of the next state on the path
     std::uint32_t cycle_length = 0;  // of the cycle that the start state lies on; 0: on none
   };
-  struct DemoClass {
-    std::vector<HullIndex> hulls;  // of all states on the path, those with anything to convey
-    std::vector<DemoIndex> members;
-  };
 
-  // ORs into `row` what hull h conveys to the cells.
-  void add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const;
+  [[noreturn]] void refuse_tables() const;
 
   Domain domain_;
-  bool tabulated_ = true;
+  std::shared_ptr<const BehaviourTables> tables_;
   ConstraintTable constraints_;
   ConstraintSet prior_;
   Cone prior_cone_;
@@ -225,13 +188,7 @@ class Atlas {
   std::optional<double> regret_left_;
   std::vector<KnowledgeComponent> components_;
   std::vector<std::size_t> mask_counters_;
-  std::vector<Hull> hulls_;
-  std::vector<ConstraintSet> hull_facets_;
-  std::vector<std::vector<std::int32_t>>
-      hull_constraints_;  // per hull and vertex: constraint number, or -1 for no loss
-  PolicyCells cells_;
-  Coverage coverage_;
-  std::vector<DemoClass> classes_;
+  std::vector<std::vector<DemoIndex>> classes_;
   std::vector<std::vector<DemoIndex>> tests_for_;
 };
 

@@ -89,6 +89,8 @@ class PolicyPartitions {
   PolicyLookup lookup_;
 };
 
+class Expectations;
+
 /// What people who hold given reward weights do, and what demonstrations tell
 /// them: a look-up where the Atlas has tables, planned and remembered where not.
 ///
@@ -116,7 +118,7 @@ class Behaviours {
                       std::shared_ptr<PolicyPartitions> partitions = nullptr);
   Behaviours(const Behaviours&) = delete;
   Behaviours& operator=(const Behaviours&) = delete;
-  ~Behaviours() = default;
+  ~Behaviours();
 
   [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
   /// The atlas's constraints and, after them, those met on the way. It grows; references to it stay valid.
@@ -127,8 +129,6 @@ class Behaviours {
   /// About how much is remembered, in bytes.
   [[nodiscard]] std::size_t memory() const noexcept;
 
-  /// Weights met so far, where behaviours are not tabulated.
-  [[nodiscard]] std::size_t num_cells() const noexcept { return cells_.size(); }
   /// The cell of the weights, shape [d].
   PolicyCellIndex locate(const Direction& weights);
 
@@ -136,8 +136,8 @@ class Behaviours {
   /// nothing if they have no optimum there.
   std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell);
 
-  /// The weights of a cell that locate() gave, where behaviours are not tabulated.
-  [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const { return cells_[cell.value()].weights; }
+  /// The weights of a cell that locate() gave. @pre the atlas has no tables: then each cell is of one person's weights.
+  [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const;
   /// The path that people with these weights take from there, or the likeliest one; nothing if they have no optimum.
   /// Planned anew at every call.
   [[nodiscard]] std::optional<Trajectory> trajectory(DemoIndex demo, const Direction& weights) const;
@@ -159,82 +159,10 @@ class Behaviours {
   ConstraintSet conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells);
 
  private:
-  using LossIndex = std::int32_t;
-  using BehaviourIndex = std::int32_t;
-  using SetIndex = std::uint32_t;
-  static constexpr BehaviourIndex kUnknown = -1;
-  static constexpr BehaviourIndex kNoOptimum = -2;
-  static constexpr SetIndex kNoSet = 0xFFFFFFFF;
-  struct Loss {
-    IntegerVector counts;
-    std::int32_t constraint = -1;  // -1: it tells nothing
-  };
-  // What people who act alike do in one MDP.
-  struct Kept {
-    std::vector<LossIndex> losses;  // per state on candidates' paths
-    std::vector<SetIndex> sets;     // per such state: what going on from there conveys; empty where not asked for yet
-  };
-  struct WordsHash {
-    std::size_t operator()(const std::vector<std::uint32_t>& words) const noexcept;
-  };
-  struct World {
-    std::vector<Kept> behaviours;
-    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, WordsHash> by_key;  // of the partition
-    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, WordsHash> by_losses;
-  };
-  struct Cell {
-    Direction weights;
-    std::vector<BehaviourIndex> behaviours;  // per MDP; empty where forgotten
-  };
-  struct DirectionHash {
-    std::size_t operator()(const Direction& weights) const noexcept;
-  };
-
-  Conveyed tabulated(std::span<const PolicyCellIndex> cells);
-  Conveyed planned(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
-  const std::vector<std::uint64_t>& rows_of(PolicyCellIndex cell);
-  void remember(PolicyCellIndex cell);
-  void make_room();
-  BehaviourIndex behaviour_of(PolicyCellIndex cell, MdpIndex m);
-  BehaviourIndex find_behaviour(const Direction& weights, MdpIndex m);
-  BehaviourIndex number_of(World& world, const std::vector<LossIndex>& losses);
-  LossIndex number_of(const IntegerVector& loss);
-  SetIndex number_of_set(std::vector<std::uint32_t> set);
-  SetIndex with(SetIndex set, std::int32_t constraint);
-  SetIndex union_of(std::vector<SetIndex>& sets);
-  void find_sets(MdpIndex m, Kept& behaviour);
-  std::vector<BehaviourIndex> behaviours_of(std::span<const PolicyCellIndex> cells, MdpIndex m);
-  SetIndex conveyed_by(DemoIndex demo, std::span<const BehaviourIndex> behaviours);
-
   const Atlas* atlas_;
-  std::size_t max_cells_;
   ConstraintTable constraints_;
-
-  // Tabulated: rows per cell, and their union.
-  std::vector<std::vector<std::uint64_t>> rows_by_cell_;  // empty where not asked for yet, or forgotten
-  std::vector<PolicyCellIndex> cells_with_rows_;          // a ring of max_cells_with_rows_
-  std::size_t max_cells_with_rows_ = 1;
-  std::size_t oldest_rows_ = 0;
-  std::vector<std::uint64_t> rows_;
-
-  // On demand.
-  std::shared_ptr<PolicyPartitions> partitions_;
-  std::unordered_map<Direction, PolicyCellIndex, DirectionHash> index_;
-  std::vector<Cell> cells_;
-  std::vector<PolicyCellIndex> remembered_;  // a ring of max_cells_
-  std::size_t oldest_ = 0;
-  std::vector<Loss> losses_;
-  std::unordered_map<IntegerVector, LossIndex> loss_index_;
-  std::vector<World> worlds_;        // per MDP
-  std::size_t behaviour_bytes_ = 0;  // of worlds_ and sets
-  std::size_t max_behaviour_bytes_ = 0;
-  std::vector<const std::vector<std::uint32_t>*> sets_;  // constraints, ascending
-  std::unordered_map<std::vector<std::uint32_t>, SetIndex, WordsHash> set_index_;
-  std::unordered_map<std::uint64_t, SetIndex> with_;                            // set and constraint
-  std::unordered_map<std::vector<std::uint32_t>, SetIndex, WordsHash> unions_;  // several sets
   std::vector<double> robot_weights_;
-  std::vector<ConstraintIndex> numbering_;
-  std::vector<std::uint32_t> bit_of_;  // per constraint
+  std::unique_ptr<Expectations> people_;
 };
 
 }  // namespace kith

@@ -22,7 +22,7 @@ struct Grade {
 /// Immutable; needs no more than the atlas while it is made.
 class GradeTable {
  public:
-  /// @throws kith::Error (kInfeasible) unless atlas.is_tabulated().
+  /// @throws kith::Error (kInfeasible) unless the atlas has tables.
   explicit GradeTable(const Atlas& atlas);
 
   [[nodiscard]] std::size_t num_components() const noexcept { return num_components_; }

@@ -54,7 +54,7 @@ struct Contrast {
 
 /// The contrast that conveys a constraint, at the earliest state of the robot's path where there is one: with a path
 /// that somebody expects and that differs from the robot's by a multiple of the constraint's normal; where nobody
-/// knows what people expect (Atlas::is_tabulated()), with the path that such a single other action begins, after which
+/// knows what people expect (Atlas::find_tables()), with the path that such a single other action begins, after which
 /// the robot goes on as ever. Of several the smallest multiple. Nothing if there is none.
 [[nodiscard]] std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint);
 
@@ -69,7 +69,7 @@ template <typename Predicate>
 [[nodiscard]] std::optional<Contrast> best_contrast(const Atlas& atlas, DemoIndex demo, const Predicate& admits) {
   const auto& weights = atlas.domain().weights().integer;
   std::optional<Contrast> best;
-  for (const auto& vertex : atlas.coverage_set(demo)) {
+  for (const auto& vertex : atlas.tables().coverage_set(demo)) {
     if (vertex == atlas.feature_counts(demo)) continue;
     if (best && dot(weights, vertex) <= dot(weights, best->alternative_counts)) continue;
     auto contrast = contrast_with(atlas, demo, 0, vertex);

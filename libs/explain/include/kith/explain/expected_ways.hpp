@@ -16,7 +16,7 @@ struct ExpectedWay {
 
 /// What people expect whose weights fill the prior evenly, by feature counts: the most frequent first, then in the
 /// order of counts. Of the ways that hardly anybody expects some may be missing. Where behaviours are tabulated,
-/// Atlas::coverage_set() has all of them.
+/// BehaviourTables::coverage_set() has all of them.
 /// @param n  about how many people. @throws std::invalid_argument if it is 0.
 [[nodiscard]] std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, DemoIndex demo, std::size_t n = 500);
 

@@ -37,7 +37,7 @@ struct Reply {
 /// HAPPENING is an action or a feature: its name, or words of [words] in any form ("recharges", "crossing rubble"). A
 /// CELL is "(2,1)" or "2,1": column and row from the top left; in models without a map the name of a state in quotes or
 /// behind the word "state", or a part of it that no other has. Words such as "does it" may be left out or put in.
-/// Without tables (Atlas::is_tabulated()) the robot's path is compared with those that differ in one step, and with
+/// Without tables (Atlas::find_tables()) the robot's path is compared with those that differ in one step, and with
 /// those of people to whom the feature means more or less; in stochastic domains paths are the likeliest ones, and
 /// chances and expectations are given.
 /// Without a cell questions are about the path from the map's start; without a world about all of them, or the one with

@@ -30,7 +30,7 @@ class AnswerEvidence {
   AnswerEvidence(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers, double chance);
 
   /// With paths: which weights give these answers, and, for people whose answers are not always the best path for some
-  /// weights, the answers themselves. The atlas must outlive it. @pre atlas.is_tabulated().
+  /// weights, the answers themselves. The atlas must outlive it. @pre the atlas has tables.
   AnswerEvidence(const Atlas& atlas, std::span<const GivenAnswer> answers);
 
   /// Whether there are no answers.

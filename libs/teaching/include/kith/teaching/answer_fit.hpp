@@ -84,6 +84,7 @@ class AnswerFit {
   [[nodiscard]] std::vector<double> with_slips(const std::vector<double>& right) const;
 
   const Atlas* atlas_;
+  const BehaviourTables* tables_;  // the atlas's; nothing where it has none
   std::vector<OneTest> tests_;
   std::vector<HalfSpace> half_spaces_;  // that tests name, each once
   std::size_t num_right_ = 0;

@@ -32,9 +32,10 @@ class RandomTest {
   [[nodiscard]] std::vector<double> right_in_cells(std::span<const double> masses) const;
 
   const Atlas* atlas_;
-  const Exam* exam_;
+  const GradeTable* table_;  // the exam's
   std::size_t component_;
-  std::vector<HalfSpace> facets_;  // where behaviours are not tabulated
+  std::vector<HalfSpace> facets_;  // the tests where there is no table
+  std::vector<double> weights_;    // of the tests; they sum to 1
 };
 
 }  // namespace kith
