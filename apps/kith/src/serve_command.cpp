@@ -29,7 +29,6 @@
 #include "kith/hosting/session_study.hpp"
 #include "kith/present/json.hpp"
 #include "kith/server/server.hpp"
-#include "live_adapter.hpp"
 #include "local_facilitator.hpp"
 #include "serve_address.hpp"
 #include "serve_rehearsal.hpp"
@@ -273,9 +272,8 @@ class LiveServer {
   struct Running {
     Running(std::shared_ptr<const LiveStudy> study, const LiveServiceOptions& service_options,
             const ServerOptions& server_options)
-        : service{std::move(study), service_options}, adapter{service}, server{server_options, adapter} {}
+        : service{std::move(study), service_options}, server{server_options, service} {}
     LiveService service;
-    LiveAdapter adapter;
     Server server;
   };
 

@@ -43,7 +43,7 @@ void Connection::hang_up(std::uint16_t code, const char* reason) {
   if (!is_closed.exchange(true)) socket->close(code, reason);
 }
 
-LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket) {
+LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket, std::string /*remote*/) {
   auto& state = *state_;
   auto connection = std::make_shared<Connection>();
   connection->socket = std::move(socket);

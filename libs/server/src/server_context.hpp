@@ -6,7 +6,7 @@
 
 #include "admission.hpp"
 #include "connections.hpp"
-#include "kith/server/live_application.hpp"
+#include "kith/core/live_application.hpp"
 #include "kith/server/server_options.hpp"
 #include "net.hpp"
 #include "request_rules.hpp"

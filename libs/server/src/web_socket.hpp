@@ -11,7 +11,7 @@
 
 #include "admission.hpp"
 #include "connections.hpp"
-#include "kith/server/live_application.hpp"
+#include "kith/core/live_application.hpp"
 #include "net.hpp"
 #include "request.hpp"
 #include "send_queue.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "kith/server/live_application.hpp"
+#include "kith/core/live_application.hpp"
 #include "kith/server/server.hpp"
 
 namespace kith::testing {

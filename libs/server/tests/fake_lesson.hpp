@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "kith/server/live_application.hpp"
+#include "kith/core/live_application.hpp"
 
 namespace kith::testing {
 

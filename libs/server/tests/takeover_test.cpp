@@ -40,41 +40,10 @@ SessionStudy study_with_replacements() {
   return make_session_study(reading);
 }
 
-// The service as the server's application.
-class ServiceApplication final : public LiveApplication {
- public:
-  explicit ServiceApplication(LiveService& service) : service_{service} {}
-  ConnectionId open(std::shared_ptr<Socket> socket, std::string) override {
-    return service_.open(std::make_shared<Forward>(std::move(socket)));
-  }
-  void receive(ConnectionId connection, std::string_view frame) override { service_.receive(connection, frame); }
-  void closed(ConnectionId connection) override { service_.closed(connection); }
-  HttpReply http(const HttpRequest& request) override {
-    auto reply = service_.http({.method = request.method,
-                                .target = request.target,
-                                .bearer = request.bearer,
-                                .body = request.body,
-                                .remote = request.remote});
-    return {.status = reply.status, .body = std::move(reply.body), .headers = std::move(reply.headers)};
-  }
-
- private:
-  struct Forward final : LiveService::Socket {
-    explicit Forward(std::shared_ptr<LiveApplication::Socket> to) : socket{std::move(to)} {}
-    void send(std::shared_ptr<const std::string> frame) override { socket->send(std::move(frame)); }
-    void close(std::uint16_t code, std::string reason) override { socket->close(code, std::move(reason)); }
-    void authenticated() override { socket->authenticated(); }
-    std::shared_ptr<LiveApplication::Socket> socket;
-  };
-  LiveService& service_;
-};
-
 // A server with a study, and whoever comes.
 class Hall {
  public:
-  Hall() : service_{study_.study, options()}, application_{service_}, server_{{}, application_} {
-    service_.set_base_url("http://localhost");
-  }
+  Hall() : service_{study_.study, options()}, server_{{}, service_} { service_.set_base_url("http://localhost"); }
   ~Hall() {
     for (const auto& person : people_) person->stop();
     wait_until([this] { return world_.unfinished == 0; });
@@ -156,7 +125,6 @@ class Hall {
   ScratchFolder scratch_;
   SessionStudy study_ = study_with_replacements();
   LiveService service_;
-  ServiceApplication application_;
   Server server_;
   std::string facilitator_ = service_.start_links().facilitator;
   asio::io_context io_;

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kith/core/live_application.hpp"
+
 namespace kith {
 
 struct LiveStudy;
@@ -38,39 +40,12 @@ struct LiveServiceOptions {
 };
 
 /// Rooms of a study with people in them: kept in a store (EventStore), taught by threads of their own, shown to
-/// connections. Knows nothing of networks: connections are Sockets, requests are HttpRequests.
+/// connections. Knows nothing of networks.
 ///
 /// A message is acknowledged, and its effect shown to anybody, only after it is on the disk. All functions may be
 /// called from any thread; receive() and http() never wait for teaching, and receive() never for the disk.
-class LiveService {
+class LiveService final : public LiveApplication {
  public:
-  /// A connection, as the service sees it. All functions may be called from any thread and must not block; they may be
-  /// called after the connection was closed by the other side, and then do nothing.
-  struct Socket {
-    virtual ~Socket() = default;
-    /// Sends one text frame. Frames arrive in the order of the calls.
-    virtual void send(std::shared_ptr<const std::string> frame) = 0;
-    /// Closes the connection after the frames sent so far, with a close code of WebSocket.
-    virtual void close(std::uint16_t code, std::string reason) = 0;
-    /// The client has shown a valid token. Until then it is up to the caller how long the connection may stay open.
-    virtual void authenticated() {}
-  };
-  using ConnectionId = std::uint64_t;
-
-  struct HttpRequest {
-    std::string method;  ///< "GET", "POST"
-    std::string target;  ///< Path with query, such as "/api/health".
-    std::string bearer;  ///< The token of the header Authorization; empty without.
-    std::string body;
-    std::string remote;  ///< Address of the client, for limits only; never stored.
-  };
-  struct HttpReply {
-    int status = 200;
-    std::string content_type = "application/json";
-    std::string body{};
-    std::map<std::string, std::string> headers{};
-  };
-
   /// The tokens of links for the person who started the service.
   struct StartLinks {
     std::string facilitator;  ///< Token for /f#t=...
@@ -83,9 +58,7 @@ class LiveService {
   /// rebuilt as it was is left out and reported to facilitators.
   LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOptions options);
   /// As stop().
-  ~LiveService();
-  LiveService(const LiveService&) = delete;
-  LiveService& operator=(const LiveService&) = delete;
+  ~LiveService() override;
 
   /// New tokens of a facilitator and an observer. Those given earlier stay valid until they expire or are revoked.
   [[nodiscard]] StartLinks start_links();
@@ -97,19 +70,16 @@ class LiveService {
   /// How links begin, such as "http://127.0.0.1:8080"; views show them so.
   void set_base_url(std::string url);
 
-  // --- connections ----------------------------------------------------------
+  // --- connections and requests ---------------------------------------------
   /// A new connection. It is told nothing until its first frame is a valid hello.
-  [[nodiscard]] ConnectionId open(std::shared_ptr<Socket> socket);
-  /// One text frame of a connection. Never throws for what is in it.
-  void receive(ConnectionId id, std::string_view text);
-  /// How long a message to the connection and back takes, for facilitators.
-  void measured(ConnectionId id, std::chrono::microseconds round_trip);
-  /// The connection is closed.
-  void closed(ConnectionId id);
-
-  // --- requests -------------------------------------------------------------
+  [[nodiscard]] ConnectionId open(std::shared_ptr<Socket> socket, std::string remote = {}) override;
+  /// Never throws for what is in it.
+  void receive(ConnectionId id, std::string_view text) override;
+  /// For facilitators.
+  void measured(ConnectionId id, std::chrono::microseconds round_trip) override;
+  void closed(ConnectionId id) override;
   /// Everything below /api. Never throws for what is in the request.
-  [[nodiscard]] HttpReply http(const HttpRequest& request);
+  [[nodiscard]] HttpReply http(const HttpRequest& request) override;
 
   // --- time -----------------------------------------------------------------
   /// Does what is due by the clock: people become away, time limits end, messages that could not be saved are tried

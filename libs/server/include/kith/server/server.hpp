@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "kith/server/live_application.hpp"
+#include "kith/core/live_application.hpp"
 #include "kith/server/server_options.hpp"
 
 namespace kith {

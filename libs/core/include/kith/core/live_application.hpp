@@ -9,8 +9,8 @@
 
 namespace kith {
 
-/// What the server serves besides fixed pages: an application that speaks through WebSockets and answers requests
-/// below /api. The server calls it from several threads at once.
+/// What a server serves besides fixed pages: an application that speaks through WebSockets and answers requests
+/// below /api. Servers and applications know each other by this only. Called from several threads at once.
 class LiveApplication {
  public:
   /// One connected page, as the application sees it. All functions can be called from any thread and never block.
@@ -25,7 +25,7 @@ class LiveApplication {
     /// Sends what is queued, then closes with this code (RFC 6455, 7.4) and reason (at most 123 bytes are sent).
     virtual void close(std::uint16_t code, std::string reason) = 0;
     /// The client has said who it is: it no longer counts as unauthenticated.
-    virtual void authenticated() = 0;
+    virtual void authenticated() {}
   };
   using ConnectionId = std::uint64_t;
 
