@@ -69,6 +69,8 @@ class PlannedExpectations : public Expectations {
   void find_sets(MdpIndex m, Kept& behaviour);
   std::vector<BehaviourIndex> behaviours_of(std::span<const PolicyCellIndex> cells, MdpIndex m);
   SetIndex conveyed_by(DemoIndex demo, std::span<const BehaviourIndex> behaviours);
+  std::vector<SetIndex> sets_by_class(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
+  void number_constraints_of(std::span<const SetIndex> sets);
 
   const Atlas* atlas_;
   ConstraintTable* constraints_;
@@ -345,17 +347,18 @@ PlannedExpectations::SetIndex PlannedExpectations::conveyed_by(DemoIndex demo,
   return union_of(sets);
 }
 
-// Rows over the constraints that occur here, which are few of all.
-Behaviours::Conveyed PlannedExpectations::conveyed_by_class(const KnowledgeComponent& component,
-                                                            std::span<const PolicyCellIndex> cells) {
-  make_room();
-  std::vector<SetIndex> by_class(atlas_->num_demo_classes(), kNoSet);
+// What people of these cells are told by the demonstrations of the component's classes: a set for each class, and
+// kNoSet for those of other components.
+std::vector<PlannedExpectations::SetIndex> PlannedExpectations::sets_by_class(const KnowledgeComponent& component,
+                                                                              std::span<const PolicyCellIndex> cells) {
   std::vector<std::vector<BehaviourIndex>> by_mdp(worlds_.size());
   for (std::size_t m = 0; m < worlds_.size(); ++m) {
     if (component.uses_mdp[m]) by_mdp[m] = behaviours_of(cells, MdpIndex{m});
   }
-  // Classes that follow each other mostly start in the same MDP, and many convey the same.
-  std::vector<SetIndex> distinct, own, last;
+
+  std::vector<SetIndex> by_class(atlas_->num_demo_classes(), kNoSet);
+  // Classes that follow each other mostly start in the same MDP, and many convey the same: then the last union is it.
+  std::vector<SetIndex> own, last;
   std::size_t last_mdp = worlds_.size();
   SetIndex last_set = kNoSet;
   for (const auto c : component.demo_classes) {
@@ -366,25 +369,41 @@ Behaviours::Conveyed PlannedExpectations::conveyed_by_class(const KnowledgeCompo
     for (const auto behaviour : by_mdp[m]) {
       own.push_back(worlds_[m].behaviours[static_cast<std::size_t>(behaviour)].sets[place]);
     }
+
     if (m != last_mdp || own != last) {
       last = own;
       last_mdp = m;
       last_set = union_of(own);
-      distinct.push_back(last_set);
     }
     by_class[c.value()] = last_set;
   }
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  return by_class;
+}
+
+// Numbers the constraints that occur in any of the sets: few of all, so that rows are short.
+void PlannedExpectations::number_constraints_of(std::span<const SetIndex> sets) {
   numbering_.clear();
-  for (const SetIndex set : distinct) {
+  for (const SetIndex set : sets) {
     for (const std::uint32_t c : *sets_[set]) numbering_.emplace_back(c);
   }
   std::sort(numbering_.begin(), numbering_.end());
   numbering_.erase(std::unique(numbering_.begin(), numbering_.end()), numbering_.end());
   if (numbering_.empty()) numbering_.emplace_back(0);  // one bit that nobody sets, even if there are no constraints
+
   bit_of_.resize(std::max(constraints_->size(), std::size_t{1}));
   for (std::size_t i = 0; i < numbering_.size(); ++i) bit_of_[numbering_[i].value()] = static_cast<std::uint32_t>(i);
+}
+
+Behaviours::Conveyed PlannedExpectations::conveyed_by_class(const KnowledgeComponent& component,
+                                                            std::span<const PolicyCellIndex> cells) {
+  make_room();
+  const auto by_class = sets_by_class(component, cells);
+  auto distinct = by_class;
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());  // neighbours mostly convey the same
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  if (!distinct.empty() && distinct.back() == kNoSet) distinct.pop_back();
+  number_constraints_of(distinct);
 
   const std::size_t words = (numbering_.size() + kBits - 1) / kBits;
   if (by_class.size() * words > rows_.capacity()) {
@@ -392,14 +411,16 @@ Behaviours::Conveyed PlannedExpectations::conveyed_by_class(const KnowledgeCompo
                    "comparing what " + std::to_string(by_class.size()) + " starts tell",
                    "teach from some starts only: [family] starts = 1000");
   }
-  rows_.assign(by_class.size() * words, 0);
-  std::vector<std::uint64_t> row_of(distinct.size() * words, 0);  // of each set
+
+  // A row for each different set, then a copy for each class.
+  std::vector<std::uint64_t> row_of(distinct.size() * words, 0);
   for (std::size_t i = 0; i < distinct.size(); ++i) {
     for (const std::uint32_t constraint : *sets_[distinct[i]]) {
       const std::size_t bit = bit_of_[constraint];
       row_of[i * words + bit / kBits] |= std::uint64_t{1} << (bit % kBits);
     }
   }
+  rows_.assign(by_class.size() * words, 0);
   for (std::size_t c = 0; c < by_class.size(); ++c) {
     if (by_class[c] == kNoSet) continue;
     const auto place = std::lower_bound(distinct.begin(), distinct.end(), by_class[c]) - distinct.begin();
