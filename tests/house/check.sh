@@ -38,7 +38,7 @@ check_pragma() {  # every header begins with #pragma once
     print FILENAME ": the first line is not " q "#pragma once" q }' 2>&1 | none
 }
 
-# A layer needs only layers that come before it in libs/CMakeLists.txt.
+# A layer needs only layers that come before it in libs/CMakeLists.txt, and the map of the project has them all in order.
 check_layers() {
   local seen=' ' layer need
   sed -n 's/^ *add_subdirectory(\([a-z_]*\)).*/\1/p' libs/CMakeLists.txt | {
@@ -55,6 +55,11 @@ check_layers() {
     layer=$(basename "$layer")
     grep -q "add_subdirectory($layer)" libs/CMakeLists.txt || { echo "libs/$layer is not in libs/CMakeLists.txt"; kept=1; }
   done
+  local listed drawn
+  listed=$(sed -n 's/^ *add_subdirectory(\([a-z_]*\)).*/\1/p' libs/CMakeLists.txt | tr '\n' ' ')
+  drawn=$(sed -n '/^## Layers/,/^## Read/p' docs/architecture.md | sed -n '/^```text/,/^```$/p' | grep -v '^```' |
+    sed 's/  .*//' | tr '\n' ' ')
+  [[ $drawn == "$listed" ]] || { echo "docs/architecture.md draws the layers ${drawn}but libs/CMakeLists.txt has $listed"; kept=1; }
   return $kept
 }
 

@@ -16,6 +16,7 @@ tidy_tree() {
   printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
   printf 'add_subdirectory(live)\n' >>libs/CMakeLists.txt
   printf 'kith_module(live)\n' >libs/live/CMakeLists.txt
+  printf '## Layers\n\n```text\nlow high  what is below\nlive      people\n```\n\n## Read first\n' >docs/architecture.md
   printf '#pragma once\nstruct Left {\n  constexpr Kind kKind{"left", "leave"};\n};\n' >libs/live/include/kith/live/room_event.hpp
   printf '// Tells kinds apart.\n' >libs/live/src/room.cpp
   printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
@@ -64,6 +65,9 @@ breaks types libs/low/include/x.hpp 'namespace kith {\nstruct A {};\n}  // names
 tidy_tree
 mkdir libs/stray
 expect 1 layers 'a folder that is not in the list'
+tidy_tree
+sed -i 's/^low high /high low /' docs/architecture.md
+expect 1 layers 'layers that are drawn in another order'
 if command -v clang-format >/dev/null && clang-format --version | grep -q 'version 14\.'; then
   tidy_tree
   expect 0 format 'a tidy tree'
