@@ -145,6 +145,7 @@ void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const Path
     here.cycle_length = order.cycle_length[s.value()];
     if (!mdp.is_terminal(next)) here.next = static_cast<std::uint32_t>(atlas_.first_demo_[m.value()] + next.value());
   }
+
   for (const auto s : order.states) {
     auto& here = demo(m, s);
     const StateIndex next{robot.next[s.value()]};

@@ -72,6 +72,7 @@ void AtlasBuilder::compare_whole_paths() {
     if (half_space) shown[mistake.start.value()].insert(*half_space);
     return half_space;
   };
+
   const Eigen::MatrixXd anybody = people_within(atlas_.prior_, kPathPeople);
   const double before = regret_of(regret, anybody, 0);
   for (std::size_t round = 0; round < kMostRounds; ++round) {
@@ -114,6 +115,7 @@ void AtlasBuilder::compare_whole_paths() {
     if (!is_new) break;
     known = regions.minimal(known);
   }
+
   const double after = regret_of(regret, people_within(known, 2 * kPathPeople), kPathPeople);
   atlas_.regret_left_ = before > 0.0 ? after / before : 0.0;
   if (shown.empty()) return;

@@ -65,6 +65,7 @@ void AtlasBuilder::group_by_hulls() {
     const auto& row = tables_->constraints_[h.value()];
     return std::any_of(row.begin(), row.end(), [](std::int32_t c) { return c >= 0; });
   };
+
   // Paths are at most as long as their MDP has states, so following them is cheap.
   for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
     auto& hulls = hulls_on_path[i];

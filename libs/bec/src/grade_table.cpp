@@ -27,6 +27,7 @@ void GradeTable::grade_starts(const Atlas& atlas) {
       totals[k] += 1.0;
     }
   }
+
   const std::size_t num_cells = tables.cells().size();
   const IntegerVector nothing(domain.num_features());
   right_.assign(num_cells * num_hulls_, 0);
@@ -50,6 +51,7 @@ void GradeTable::grade_starts(const Atlas& atlas) {
       }
     }
   }
+
   for (std::size_t i = 0; i < grades_.size(); ++i) {
     const double total = std::max(totals[i % columns], 1.0);
     grades_[i].share_right /= total;

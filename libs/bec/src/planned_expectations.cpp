@@ -205,6 +205,7 @@ PlannedExpectations::BehaviourIndex PlannedExpectations::find_behaviour(const Di
     if (known != nullptr) *known = behaviour;
     return behaviour;
   }
+
   const auto behaviour =
       behave_in_favour(atlas_->domain().mdp(m), {weights.data(), static_cast<std::size_t>(weights.size())},
                        robot_weights_, {.scale = atlas_->domain().count_scale()});

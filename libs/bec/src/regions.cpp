@@ -105,6 +105,7 @@ RegionEffect Regions::compare(const ConstraintSet& taught, const ConstraintSet& 
     }
     if (place->second != everything) masks.push_back(&place->second);
   }
+
   const std::size_t left = num_common(masks, everything);
   if (left == n) return {};
   for (std::size_t i = 0; i < masks.size();) {

@@ -57,6 +57,7 @@ std::vector<std::size_t> observe_common(ParticleBelief& belief, const TeamRespon
     best_evidence = evidence;
     best_hash = hash;
   }
+
   if (responses.reduce_before_update) best_product = minimal_set(best_product).value_or(best_product);
   belief.observe(best_product, responses.likelihood, random);
   return complement(*best, responses.lists.size());

@@ -382,6 +382,7 @@ void ParticleBelief::blend(const ParticleBelief& other, double share, RandomStre
       }
     }
   };
+
   if (others < size()) take(*this, size() - others, 1.0 - share, random.split("own"));
   if (others > 0) take(other, others, share, random.split("other"));
   lose_product();

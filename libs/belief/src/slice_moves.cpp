@@ -35,7 +35,7 @@ using Axes = std::array<Values, kMost>;
 // Half-spaces in single precision, and where great circles lie in them: x(angle) = point cos(angle) + side sin(angle).
 struct Falls {
   std::vector<float> normals;       // row-major, shape [n, d]
-  std::vector<float> far, slope;    // shape [n]; of a prior none
+  std::vector<float> far, slope;    // shape [n]; empty for a prior
   std::vector<Floats> point, side;  // u . point and u . side, shape [n, kLanes]
 
   explicit Falls(std::span<const double> unit_normals, std::size_t d)
@@ -48,7 +48,7 @@ struct Lanes {
   Axes<Floats> rough_point, rough_side;
   Floats cosine, sine;              // of the angle that is tried
   Floats found_cosine, found_sine;  // of the angle that is taken
-  Floats low, high, angle;          // in turns
+  Floats low, high, angle;          // one turn is 1
   Floats density, level, margin;
   std::array<std::int32_t, kLanes> is_open;
 };
@@ -62,6 +62,7 @@ KITH_VECTOR_CLONES void aim(const float* normals, std::size_t stride, std::size_
     KITH_INDEPENDENT_LOOP
     for (std::size_t i = 0; i < kLanes; ++i) along[i] += static_cast<double>(normal[i]) * point[i];
   }
+
   Doubles square{};
   for (std::size_t k = 0; k < d; ++k) {
     const float* const normal = normals + k * stride;
@@ -73,6 +74,7 @@ KITH_VECTOR_CLONES void aim(const float* normals, std::size_t stride, std::size_
       square[i] += side[i] * side[i];
     }
   }
+
   Doubles scale;
   KITH_INDEPENDENT_LOOP
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -80,6 +82,7 @@ KITH_VECTOR_CLONES void aim(const float* normals, std::size_t stride, std::size_
     scale[i] = square[i] > kShortest ? inverse : 0.0;
     lanes.is_open[i] = square[i] > kShortest ? 1 : 0;
   }
+
   for (std::size_t k = 0; k < d; ++k) {
     const double* const point = lanes.point[k].data();
     double* const side = lanes.side[k].data();
@@ -147,6 +150,7 @@ KITH_VECTOR_CLONES void weigh(const Falls& prior, const Falls& falls, Lanes& lan
       least[i] = t < least[i] ? t : least[i];
     }
   }
+
   for (std::size_t j = 0; j < falls.size(); ++j) {
     const float* const point = falls.point[j].data();
     const float* const side = falls.side[j].data();

@@ -40,6 +40,7 @@ std::string gym_text(const ExportView& view) {
       vectors[index_text(a)] = std::move(features);
     }
   }
+
   std::vector<std::string> names;
   std::vector<std::size_t> starts;
   for (std::size_t s = 0; s < view.num_states(); ++s) names.push_back(view.state_name(s));
@@ -88,6 +89,7 @@ std::vector<ExportedFile> prism_files(const ExportView& view, const std::string&
       }
     }
   }
+
   const std::string size = index_text(view.num_states()) + " " + index_text(num_choices) + " ";
   std::string labels = "0=\"init\" 1=\"deadlock\" 2=\"goal\" 3=\"start\"\n";
   std::string states = "(s)\n";
@@ -98,6 +100,7 @@ std::vector<ExportedFile> prism_files(const ExportView& view, const std::string&
     if (!which.empty()) labels += index_text(s) + ":" + which + "\n";
     states += index_text(s) + ":(" + index_text(s) + ")\n";
   }
+
   const auto quoted = [](const std::string& text) { return to_toml(TomlValue{text}); };
   std::vector<ExportedFile> files{{name + ".tra", size + index_text(num_transitions) + "\n" + transitions},
                                   {name + ".sta", states},
@@ -115,6 +118,7 @@ std::vector<ExportedFile> prism_files(const ExportView& view, const std::string&
     text.append(size).append(index_text(num_rewards[k])).append("\n").append(rewards[k]);
     files.push_back({file, std::move(text)});
   }
+
   const std::string model =
       "[model]\nformat = \"prism\"\nterminal = \"goal\"\nstart = \"start\"\n[[model.mdp]]\ntransitions = " +
       quoted(name + ".tra") + "\nlabels = " + quoted(name + ".lab") + "\nrewards = { " + names + " }\n";

@@ -235,6 +235,7 @@ std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) 
     if (s) place_things(m, state(m, *s), false, rows);
     return rows;
   }
+
   const World& world = family_->world;
   const GridState now = s ? state(m, *s) : GridState{};
   const std::vector<std::size_t> items = items_in(m);

@@ -103,6 +103,7 @@ void LayersReader::read_layer(const TomlValue& value) {
       toggle = "";
     }
   }
+
   std::size_t column = 1;
   std::size_t row = 1;
   if (const TomlArray* at = layer.array("at", Presence::kOptional)) {
@@ -124,6 +125,7 @@ void LayersReader::read_layer(const TomlValue& value) {
     column = numbers[0];
     row = numbers[1];
   }
+
   const auto drawing = read_drawing(layer, false);
   layer.finish();
   if (drawing) paint(*drawing, column, row, toggle);
@@ -292,6 +294,7 @@ std::optional<std::vector<int>> LayersReader::read_grey(TomlReader& layer, const
     report_.error("E0269", entry.value.place(), "'" + *text + "' is not a symbol of [map.legend]",
                   suggestion_for_undeclared());
   }
+
   if (report_.num_errors() > errors_before) return std::nullopt;
   std::vector<int> result;
   result.reserve(image.grey.size());

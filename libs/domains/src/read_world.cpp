@@ -338,6 +338,7 @@ World read_world(TomlReader& file, NamedFiles& files, ModelReport& model_report)
     list_worlds(world, report);
     thin_out(world, report);
   }
+
   if (is_sound()) reader.check_worlds();
   if (is_sound()) compute_rasters(world, report);
   if (is_sound()) name_combinations(world);

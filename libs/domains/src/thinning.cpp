@@ -92,6 +92,7 @@ Thinning read_thinning(TomlReader& file) {
     file.report().error("E0226", value->place(), "'seed' draws worlds, but 'worlds' does not say how many",
                         "write worlds = NUMBER, or leave out the seed to build all of them");
   }
+
   if (const auto n = family->integer("starts", Presence::kOptional, {1, kMostStarts})) {
     thinning.starts = static_cast<std::size_t>(*n);
   }
@@ -148,6 +149,7 @@ void list_worlds(World& world, TomlReport& report) {
                  "list each as [[family.world]] with present = [...]");
     return;
   }
+
   std::map<std::uint64_t, std::size_t> line_of;
   for (const TomlValue& value : list) {
     if (read_table(value, "a world", report) == nullptr) continue;
@@ -202,6 +204,7 @@ std::vector<std::uint64_t> choose_variants(const World& world, std::size_t num_w
     while (taken.contains(mask)) mask = (mask + 1) & all;
     add(mask);
   }
+
   // As in a whole family, the last world has everything.
   if (variants.size() > 1) std::rotate(variants.begin() + 1, variants.begin() + 2, variants.end());
   return variants;

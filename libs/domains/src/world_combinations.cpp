@@ -62,6 +62,7 @@ void name_combinations(World& world) {
     const Mixture mixture = mixture_on(world, cell);
     if (mixture.always.size() + mixture.sometimes.size() > 1) mixtures.insert(mixture);
   }
+
   // Found by content, in the order of the cells' symbols, not by address.
   std::vector<SymbolContent> found;
   const auto add = [&](SymbolContent content) {
@@ -69,6 +70,7 @@ void name_combinations(World& world) {
     if (content.is_floor() || std::ranges::any_of(world.symbols, is_it)) return;
     if (std::ranges::find(found, content) == found.end()) found.push_back(std::move(content));
   };
+
   for (const Mixture& mixture : mixtures) {
     const std::size_t n = std::min(mixture.sometimes.size(), kMostTogether);
     for (std::size_t subset = 0; subset < (std::size_t{1} << n); ++subset) {
@@ -85,6 +87,7 @@ void name_combinations(World& world) {
       add(content);
     }
   }
+
   for (SymbolContent& content : found) {
     const auto glyph = unused_glyph(world, "");
     if (!glyph) return;

@@ -227,6 +227,7 @@ void Cone::cut_rays(const HalfSpace& half_space, std::span<const int> sides, std
     for (std::size_t k = 0; k < old.words(); ++k) facets[k] = set[k] & other[k];
     if (on_boundary) set_bit(facets, facets_.size());
   };
+
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (sides[i] >= 0) add(rays_[i], old[i], old[i], sides[i] == 0);
   }
@@ -243,6 +244,7 @@ void Cone::cut_rays(const HalfSpace& half_space, std::span<const int> sides, std
       if (meet(i, j)) add(combination(products[i], rays_[j], -products[j], rays_[i]), old[i], old[j], true);
     }
   }
+
   const auto left = facets_left(tight, rays.size(), facets_.size() + 1);
   std::vector<HalfSpace> facets;
   facets.reserve(left.size());

@@ -171,6 +171,7 @@ void ConeSampler::halve_wide_parts() {
     sum_most += most(parts_[i]);
     sum_likely += likely(parts_[i]);
   }
+
   for (std::size_t n = 0; rank_ > 1 && n < kMostHalvings && !(sum_most <= kEnoughEnvelope * sum_likely); ++n) {
     const auto [bound, i] = widest.top();
     widest.pop();
@@ -266,6 +267,7 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
     }
     return points;
   }
+
   // Most proposals are rejected, so the power and, where there are lines, the point are computed only where a rough
   // power cannot tell.
   const detail::GuideTable guide{envelope_};
@@ -289,6 +291,7 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
     const Proposal proposal = propose(which, lambda);
     if (last < proposal.acceptance) points.col(found++) = proposal.point;
   };
+
   const auto& first = detail::cover_points(dimension());
   for (std::size_t i = 0; i < first.size() && found < points.cols(); ++i) {
     take(first.which(i), first.lambda(i), first.last(i));

@@ -126,6 +126,7 @@ bool ComponentPaths::correct_labels(States component) {
     queued_.assign(mdp_.num_states(), 0);
     mark_.resize(mdp_.num_states());
   }
+
   queue_.resize(component.size());  // a ring
   std::size_t head = 0;
   std::size_t waiting = 0;
@@ -135,6 +136,7 @@ bool ComponentPaths::correct_labels(States component) {
     const std::size_t tail = head + waiting++;
     queue_[tail < queue_.size() ? tail : tail - queue_.size()] = s;
   };
+
   for (const StateIndex s : component) {
     origin_[s.value()] = kNone;
     if (values_[s.value()] > kUnreached) push(number(s));

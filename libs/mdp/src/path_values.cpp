@@ -93,6 +93,7 @@ void PathValues::solve(std::span<const std::uint32_t> states) {
     while (!is_allowed(c)) ++c;
     take(s, c);
   }
+
   for (const std::uint32_t s : states) is_open_[s] = 1;
   const double slack = std::max(1e-13, 0.01 * tolerance_);  // far within a tie, far above rounding
   const auto open_arrivals = [&](std::uint32_t s) {

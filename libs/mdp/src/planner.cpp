@@ -53,11 +53,13 @@ ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights) {
     plan.cycle = {*stranded};
     return plan;
   }
+
   if (!paths.solve_to_terminals()) {
     plan.failure = PlanFailure::kPositiveCycle;
     plan.cycle = paths.cycle();
     return plan;
   }
+
   const auto& values = paths.values();
   const auto tight = [&](std::size_t from, std::size_t next, std::size_t row) {
     return values[from] == paths.reward(row) + values[next];
@@ -68,6 +70,7 @@ ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights) {
     plan.cycle = std::move(order.cycle);
     return plan;
   }
+
   follow_first_tight(mdp, order.states, tight, plan.solution.emplace());
   plan.solution->values = std::move(paths.values());
   return plan;

@@ -120,6 +120,7 @@ bool PolicyChain::factorise(std::span<double> values) const {
     }
     for (std::size_t k = 0; k < kinds_; ++k) constant(row, eigen_index(k)) = constant_[at * kinds_ + k];
   }
+
   Matrix system(eigen_index(order_.size()), eigen_index(order_.size()));
   system.setFromTriplets(entries.begin(), entries.end());
   system.makeCompressed();
@@ -198,6 +199,7 @@ std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
     PathWalk{all.size()}.sum_up(all, steps, rows, d, mdp.discount(), features);
     return features;
   }
+
   std::vector<double> immediate(mdp.num_states() * d, 0.0);
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
     for (const Outcome& outcome : mdp.outcomes(mdp.choices(StateIndex{s})[policy.choice[s]])) {
@@ -205,6 +207,7 @@ std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
       for (std::size_t k = 0; k < d; ++k) immediate[s * d + k] += outcome.probability * phi[k];
     }
   }
+
   std::vector<double> features((mdp.num_states() + mdp.num_terminals()) * d, 0.0);
   if (!PolicyChain{mdp, policy, immediate, d}.solve(features))
     std::fill_n(features.begin(), immediate.size(), std::numeric_limits<double>::infinity());

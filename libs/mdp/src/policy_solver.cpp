@@ -41,6 +41,7 @@ bool finishes_as_far_as_allowed(const Mdp& mdp, const ChoiceMask& mask, Policy& 
     for (const std::uint32_t on : walk) marks[on] = Mark::kEnds;
     policy.finishing.insert(policy.finishing.end(), walk.rbegin(), walk.rend());
   }
+
   for (std::size_t s = 0; s < n && !policy.finishes(); ++s) {
     if (marks[s] == Mark::kEnds) continue;
     const std::size_t first = mdp.first_choice(StateIndex{s});
@@ -178,6 +179,7 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
     paths.solve(states_by_distance(mdp_));
     return std::move(paths.values());
   }
+
   const bool must_finish = mdp_.discount() == 1.0;
   Policy policy = first_finishing(mdp_, mask_);
   if (must_finish && !policy.finishes()) return std::nullopt;
@@ -187,11 +189,13 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
                  "the robot or people would have to go on for longer than can be computed: everything that ends is too "
                  "unlikely; make ending likelier, or give a smaller discount"};
   };
+
   if (!chain_of(policy).solve(values)) {  // what comes first in the file may lead to an end by sheer chance
     policy = likeliest_finishing(mdp_, mask_);
     std::fill(values.begin(), values.end(), 0.0);
     if (!chain_of(policy).solve(values)) throw too_rare();
   }
+
   bool is_evaluated = true;
   for (int i = 0; i < kMostPolicies; ++i) {
     if (improve(policy, values)) {

@@ -164,6 +164,7 @@ std::optional<Journal> Journal::open(const fs::path& path, const JournalIdentity
       throw;
     }
   };
+
   const auto whose = identify(path);
   if (whose && *whose != identity) {
     throw Error{ErrorKind::kUsage, path.string() + " belongs to another study, shard or program"};
@@ -298,6 +299,7 @@ JournalProgress Journal::progress() const {
     if (!message || message->empty() || message->front() != kFailure) continue;  // it is tried again
     progress.failures.push_back({static_cast<std::size_t>(team), std::string{message->substr(1)}});
   }
+
   auto session = database.prepare("SELECT id, started FROM sessions ORDER BY id DESC LIMIT 1");
   if (!session.step()) return progress;
   progress.started = session.real(1);

@@ -122,6 +122,7 @@ std::optional<Journal> open_shard(const fs::path& folder, Complaints& complaints
                    Remedy::kRunShard);
     return std::nullopt;
   }
+
   settle_for_reading(folder);
   const auto identity = Journal::identify(folder / kJournalFile);
   if (!identity) {
@@ -129,12 +130,14 @@ std::optional<Journal> open_shard(const fs::path& folder, Complaints& complaints
                    "the journal is damaged: it does not say to which study it belongs", kGoOn);
     return std::nullopt;
   }
+
   std::error_code ignored;
   if (fs::exists(folder / kManifestFile, ignored) && published_digest(folder) != identity->inputs.digest()) {
     complaints.add(ErrorKind::kMismatch, "E0638", folder,
                    "its manifest.json does not belong to the study of its journal, or is damaged", kGoOn);
     return std::nullopt;
   }
+
   try {
     return Journal::read(folder / kJournalFile);
   } catch (const SqliteError& error) {
@@ -172,6 +175,7 @@ Shards open_shards(std::span<const fs::path> folders, const std::string& program
     journals.push_back(*std::move(journal));
     found.push_back(folder);
   }
+
   complaints.throw_if_any();
   for (std::size_t i = 0; i < journals.size(); ++i) {
     compare(found[i], journals[i].identity(), journals[0].identity(), found[0], program, complaints);
@@ -191,6 +195,7 @@ Shards open_shards(std::span<const fs::path> folders, const std::string& program
     }
     check_complete(found[i], journals[i], missing, complaints);
   }
+
   std::vector<std::size_t> absent;
   for (std::size_t index = 1; index <= count && absent.size() < kMostAbsent; ++index) {
     if (holders.count(index) == 0) absent.push_back(index);
@@ -204,6 +209,7 @@ Shards open_shards(std::span<const fs::path> folders, const std::string& program
                      Advice{"run it, and name its folder too", Remedy::kMergePart});
     }
   }
+
   complaints.throw_if_any();
   for (const auto& [index, holder] : holders) shards.journals.push_back(std::move(journals[holder]));
   return shards;

@@ -171,6 +171,7 @@ void RunFolder::check_content(bool replace) {
   });
   const bool same_inputs = study == inputs_.study && domain == inputs_.domain && same_files;
   has_results_ = same_inputs && fs::exists(path_ / kManifestFile, error);
+
   // A run that has begun to replace another one's results has a journal of its own.
   const bool has_journal = Journal::exists(path_ / kJournalFile);
   const auto begun = has_journal ? identity_if_any(path_ / kJournalFile) : std::nullopt;

@@ -167,6 +167,7 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
                 path.string() + " holds a shard of this study with fewer replicates, and shards cannot be extended",
                 "extend the folder that they are merged into"};
   }
+
   if (found.shard != identity.shard) {
     throw Error{ErrorKind::kUsage,
                 path.string() + " holds shard " + std::to_string(found.shard.index) + "/" +
@@ -174,6 +175,7 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
                     "/" + std::to_string(identity.shard.count),
                 Remedy::kReplaceContents};
   }
+
   const auto progress = Journal::read(path / kJournalFile).progress();
   const bool same_program = found.program == identity.program;
   const auto by = same_program ? "on a machine whose mathematical library rounds differently (" + found.arithmetic +
@@ -217,6 +219,7 @@ void StudyRun::State::open_journal() {
                     "); there is nothing to resume",
                 Remedy::kAllowStart};
   }
+
   const bool is_part = extends(found->inputs, identity.inputs);
   auto extended = *found;
   extended.inputs = identity.inputs;

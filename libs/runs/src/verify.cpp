@@ -58,6 +58,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder, const std::string&
                                          "rerun the command that ran the study"));
     return std::nullopt;
   }
+
   const auto document = Json::parse(text);
   Manifest manifest;
   manifest.partial = document.contains("missing");

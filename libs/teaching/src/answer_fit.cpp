@@ -191,6 +191,7 @@ AnswerFit::Rating AnswerFit::of(const ParticleBelief& belief, PointCells& cells)
     likelihood += masses[i] * fit;
     right[num_right] += masses[i];
   }
+
   if (!(any > 0.0)) return of(Guess::kAny);  // who has no answer can only have guessed
   for (double& mass : right) mass /= any;
   return {likelihood / any, with_slips(right)};

@@ -164,6 +164,7 @@ ExamGrades Exam::grade_sample(const ParticleBelief& belief, Behaviours& behaviou
       }
     }
   }
+
   const auto divide = [](Grade& sum, double by) {
     sum.share_right /= std::max(by, 1.0);
     sum.regret /= std::max(by, 1.0);

@@ -119,6 +119,7 @@ double UnitValue::of(std::span<const ConstraintSet> shown, const ConstraintSet& 
     product_ = product_before_;
     multiply_shown(shown.back());
   }
+
   for (const auto c : taught.members()) multiply(product_, factors(c).feedback);
   std::vector<double> members(num_members_, 0.0);
   std::vector<double> weights(num_members_, 0.0);
@@ -132,6 +133,7 @@ double UnitValue::of(std::span<const ConstraintSet> shown, const ConstraintSet& 
     weights[part.member] += part.weight;
     if (mass > 0.0) members[part.member] += part.weight * worth / mass;
   }
+
   double sum = 0.0;
   double worst = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < num_members_; ++i) {
