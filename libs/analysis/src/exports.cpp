@@ -7,29 +7,10 @@
 #include <optional>
 
 #include "kith/table/csv_writer.hpp"
-#include "model.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
-
-// The column of a table with this name.
-std::optional<std::size_t> column_of(const ResultTable& table, const std::string& name) {
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    if (table.columns[c].name == name) return c;
-  }
-  return std::nullopt;
-}
-
-const double* number_at(const std::vector<TableCell>& row, std::optional<std::size_t> column) {
-  return column ? std::get_if<double>(&row[*column]) : nullptr;
-}
-
-std::string text_at(const std::vector<TableCell>& row, std::size_t column) {
-  const auto* const text = std::get_if<std::string>(&row[column]);
-  if (text != nullptr) return *text;
-  const auto* const count = std::get_if<std::int64_t>(&row[column]);
-  return count != nullptr ? std::to_string(*count) : std::string{};
-}
 
 // Shares and p-values without the zero before the point.
 std::string share_text(double value) {
@@ -40,19 +21,8 @@ std::string share_text(double value) {
 
 std::string apa_p(double p) { return p < 0.0005 ? "p < .001" : "p = " + share_text(p); }
 
-// The residual degrees of freedom of a table of F tests: of its own column, or of its row of residuals.
-std::string residual_df(const ResultTable& table, const std::vector<TableCell>& row) {
-  if (const auto own = column_of(table, "residual df")) return text_at(row, *own);
-  const auto df = column_of(table, "df");
-  for (const auto& other : table.rows) {
-    if (text_at(other, 0) == "residuals") return text_at(other, *df);
-  }
-  return "";
-}
-
-// "the effect of g", "the interaction of a and b"; a row that is named otherwise is itself.
-std::string term_words(const ResultTable& table, const std::string& name) {
-  if (table.columns.front().name != "term") return name;
+// "the effect of g", "the interaction of a and b".
+std::string term_words(const std::string& name) {
   std::vector<std::string> factors(1);
   for (const char c : name) {
     if (c == ':') {
@@ -64,74 +34,52 @@ std::string term_words(const ResultTable& table, const std::string& name) {
   return (factors.size() > 1 ? "the interaction of " : "the effect of ") + with_and(factors);
 }
 
-// The first p-value of these columns that a row has, and how it is named.
-std::string p_phrase(const ResultTable& table, const std::vector<TableCell>& row) {
-  for (const auto& [name, prefix] : {std::pair{"corrected p-value", "corrected "},
-                                     std::pair{"adjusted p-value", "adjusted "}, std::pair{"p-value", ""}}) {
-    const auto* const p = number_at(row, column_of(table, name));
-    if (p != nullptr) return prefix + apa_p(*p);
-  }
-  return "";
-}
-
 std::string sentence_start(std::string text) {
   // Names of columns and levels stay as they are.
   if (text.rfind("the ", 0) == 0) text[0] = 'T';
   return text;
 }
 
-// Of a likelihood-ratio test.
-std::string chi_squared_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
-  const auto* const statistic = number_at(row, column_of(table, "chi-squared"));
-  const auto* const p = number_at(row, column_of(table, "p-value"));
-  const auto df = column_of(table, "df");
-  if (statistic == nullptr || p == nullptr || !df) return "";
-  return fmt::format("{} {} significant, chi-squared({}) = {:.2f}, {}.",
-                     sentence_start(term_words(table, text_at(row, 0))), *p < alpha ? "was" : "was not",
-                     text_at(row, *df), *statistic, apa_p(*p));
-}
-
-std::string test_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
-  if (column_of(table, "chi-squared")) return chi_squared_sentence(table, row, alpha);
-  const auto f = column_of(table, "F"), p = column_of(table, "p-value"), df = column_of(table, "df");
-  if (!f || !p || !df || number_at(row, f) == nullptr || number_at(row, p) == nullptr) return "";
-  const auto below = residual_df(table, row);
-  const auto* const corrected = number_at(row, column_of(table, "corrected p-value"));
-  const bool found = (corrected != nullptr ? *corrected : *number_at(row, p)) < alpha;
-  auto text = fmt::format("{} {} significant, F({}{}) = {:.2f}, {}", sentence_start(term_words(table, text_at(row, 0))),
-                          found ? "was" : "was not", text_at(row, *df), below.empty() ? "" : ", " + below,
-                          *number_at(row, f), p_phrase(table, row));
-  const auto eta = column_of(table, "partial eta squared");
-  const auto low = column_of(table, "lower limit"), high = column_of(table, "upper limit");
-  if (number_at(row, eta) != nullptr) {
-    text += ", partial eta squared = " + share_text(*number_at(row, eta));
-    if (number_at(row, low) != nullptr && number_at(row, high) != nullptr)
-      text += fmt::format(", {:.3g} % CI [{}, {}]", 100.0 * (1.0 - 2.0 * alpha), share_text(*number_at(row, low)),
-                          share_text(*number_at(row, high)));
+std::string test_sentence(const TestFamily& family, const TermResult& test, double alpha) {
+  if (!test.statistic || !test.p) return "";
+  const bool is_f = family.statistic == TestFamily::Statistic::kF;
+  auto text = fmt::format("{} {} significant, {}({}) = {:.2f}, {}",
+                          sentence_start(family.are_terms ? term_words(test.subject) : test.subject),
+                          test.corrected_p.value_or(*test.p) < alpha ? "was" : "was not", is_f ? "F" : "chi-squared",
+                          degrees_text(test, family.residuals), *test.statistic,
+                          test.corrected_p ? "corrected " + apa_p(*test.corrected_p) : apa_p(*test.p));
+  if (test.effect) {
+    text += ", partial eta squared = " + share_text(*test.effect);
+    if (test.low && test.high)
+      text += fmt::format(", {:.3g} % CI [{}, {}]", 100.0 * (1.0 - 2.0 * alpha), share_text(*test.low),
+                          share_text(*test.high));
   }
   return text + ".";
 }
 
 std::string estimate_text(double value) { return formatted(value, ResultKind::kNumber); }
 
-// A difference with its interval and test: of planned contrasts, and of t tests.
-std::string difference_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
-  const auto* const difference = number_at(row, column_of(table, "difference"));
-  const auto* const low = number_at(row, column_of(table, "lower limit"));
-  const auto* const high = number_at(row, column_of(table, "upper limit"));
-  if (difference == nullptr || low == nullptr || high == nullptr) return "";
-  auto text = fmt::format("{}: mean difference = {}, {:.3g} % CI [{}, {}]", text_at(row, 0), estimate_text(*difference),
-                          100.0 * (1.0 - alpha), estimate_text(*low), estimate_text(*high));
-  if (const auto* const t = number_at(row, column_of(table, "t")); t != nullptr) {
-    const auto* const df = number_at(row, column_of(table, "df"));
-    const auto n = column_of(table, "n");
-    const auto* const pairs = n ? std::get_if<std::int64_t>(&row[*n]) : nullptr;
-    const auto degrees = df != nullptr      ? fmt::format("({:.1f})", *df)
-                         : pairs != nullptr ? fmt::format("({})", *pairs - 1)
-                                            : std::string{};
-    text += fmt::format(", t{} = {:.2f}", degrees, *t);
+// Whether a family is reported comparison by comparison, and with its statistics.
+bool is_stated(const ComparisonFamily& family) {
+  const bool is_asked = family.kind == ComparisonFamily::Kind::kPrimary ||
+                        family.kind == ComparisonFamily::Kind::kPlanned ||
+                        family.kind == ComparisonFamily::Kind::kAlone;
+  return is_asked && family.by.empty() && family.scale == ComparisonFamily::Scale::kDifference;
+}
+
+// A difference with its interval and test.
+std::string difference_sentence(const ComparisonFamily& family, const ComparisonResult& one, double alpha) {
+  if (!one.estimate || !one.low || !one.high || !one.p) return "";
+  auto text = fmt::format("{}: mean difference = {}, {:.3g} % CI [{}, {}]", one.name, estimate_text(*one.estimate),
+                          100.0 * (1.0 - alpha), estimate_text(*one.low), estimate_text(*one.high));
+  if (one.t && family.kind != ComparisonFamily::Kind::kPlanned) {
+    const auto degrees = one.n > 0 ? fmt::format("({})", one.n - 1)
+                         : one.df  ? fmt::format("({:.1f})", *one.df)
+                                   : std::string{};
+    text += fmt::format(", t{} = {:.2f}", degrees, *one.t);
   }
-  return text + ", " + p_phrase(table, row) + ".";
+  if (one.corrected_p) return text + ", corrected " + apa_p(*one.corrected_p) + ".";
+  return text + (family.is_adjusted ? ", adjusted " : ", ") + apa_p(*one.p) + ".";
 }
 
 std::string latex_escaped(const std::string& text) {
@@ -246,14 +194,13 @@ std::string results_paragraph(const Finding& finding, double alpha) {
   const auto append = [](std::string& text, const std::string& sentence) {
     if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
   };
-  for (const auto& table : finding.tables) {
-    const bool is_planned =
-        table.caption.rfind("Planned contrasts", 0) == 0 && table.columns.front().name == "contrast";
-    if (tests.empty()) {
-      for (const auto& row : table.rows) append(tests, test_sentence(table, row, alpha));
-    }
-    if (!is_planned && !column_of(table, "t")) continue;
-    for (const auto& row : table.rows) append(differences, difference_sentence(table, row, alpha));
+  for (const auto& family : finding.tests) {
+    if (!tests.empty()) break;
+    for (const auto& test : family.tests) append(tests, test_sentence(family, test, alpha));
+  }
+  for (const auto& family : finding.comparisons) {
+    if (!is_stated(family)) continue;
+    for (const auto& one : family.comparisons) append(differences, difference_sentence(family, one, alpha));
   }
   append(tests, differences);
   if (tests.empty() || finding.methods.empty()) return tests;

@@ -7,29 +7,25 @@
 #include "kith/stats/quasi_poisson.hpp"
 #include "kith/stats/survival.hpp"
 #include "model_means.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
 
 using Kind = ResultKind;
 
-std::vector<TableCell> chi_squared_row(const std::string& name, const Estimable<TestResult>& test) {
-  return {text_cell(name), cell_of(test, &TestResult::statistic),
-          test ? count_cell(static_cast<std::size_t>(test->df.front())) : text_cell(""), cell_of(test, &TestResult::p)};
-}
-
 // Tests of terms, and ratios of means with their intervals.
-void add_log_linear(const std::string& family, const std::string& detail, const std::vector<TermTest>& terms,
+void add_log_linear(const std::string& name, const std::string& detail, const std::vector<TermTest>& terms,
                     const FixedEffects& model, const AnalysisOptions& options, Finding& finding) {
   const bool is_f = !terms.empty() && terms.front().test && terms.front().test->df.size() > 1;
-  ResultTable tests{
-      fmt::format("{} of the {} regression (type II{})", is_f ? "F tests" : "Likelihood-ratio tests", family, detail),
-      {{"term", Kind::kText}, {"df", Kind::kCount}, {is_f ? "F" : "chi-squared"}, {"p-value", Kind::kP}},
-      {}};
-  for (const auto& term : terms)
-    tests.rows.push_back({text_cell(term.name), count_cell(term.df), cell_of(term.test, &TestResult::statistic),
-                          cell_of(term.test, &TestResult::p)});
-  finding.tables.push_back(std::move(tests));
+  auto family = tests_of(terms, TestFamily::Residuals::kWhole);
+  if (!is_f) family.statistic = TestFamily::Statistic::kChiSquared;
+  finding.tables.push_back(shown<TermResult>(
+      fmt::format("{} of the {} regression (type II{})", is_f ? "F tests" : "Likelihood-ratio tests", name, detail),
+      family.tests,
+      {show(&TermResult::subject, "term", Kind::kText), show(&TermResult::df, "df", Kind::kCount),
+       show(&TermResult::statistic, is_f ? "F" : "chi-squared"), show(&TermResult::p, "p-value", Kind::kP)}));
+  finding.tests.push_back(std::move(family));
   auto plain = options;  // contrasts and equivalence are of differences, which the analysis of variance has
   plain.contrasts.clear();
   plain.by.clear();
@@ -88,10 +84,7 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
       {{"group", Kind::kText}, {"n", Kind::kCount}, {"censored", Kind::kCount}, {"median", Kind::kNumber}},
       {}};
   const bool stratified = data.factors.size() > 1;
-  ResultTable tests{
-      stratified ? "Log-rank tests, stratified by the other factors" : "Log-rank test",
-      {{"factor", Kind::kText}, {"chi-squared", Kind::kNumber}, {"df", Kind::kCount}, {"p-value", Kind::kP}},
-      {}};
+  TestFamily family{.statistic = TestFamily::Statistic::kChiSquared, .are_terms = false};
   bool any_tested = false;
   for (std::size_t f = 0; f < data.factors.size(); ++f) {
     const auto& factor = data.factors[f];
@@ -114,12 +107,22 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
         strata ? log_rank(data.values, data.observed, factor, *strata) : log_rank(data.values, data.observed, factor);
     if (!test) finding.warnings.push_back("no log-rank test of " + factor.name + ": " + test.reason());
     any_tested = any_tested || test;
-    tests.rows.push_back(chi_squared_row(factor.name, test));
+    const auto df = test ? static_cast<std::size_t>(test->df.front()) : 0;
+    family.tests.push_back(term_result(factor.name, df, test));
   }
   add_method(finding, {"Kaplan-Meier estimates", "kaplan1958"});
   if (any_tested)
     add_method(finding, {stratified ? "log-rank tests stratified by the other factors" : "the log-rank test"});
-  if (with_tests) finding.tables.push_back(std::move(tests));
+  if (with_tests) {
+    const auto degrees = [](const TermResult& test) { return test.statistic ? count_cell(test.df) : text_cell(""); };
+    finding.tables.push_back(shown<TermResult>(
+        stratified ? "Log-rank tests, stratified by the other factors" : "Log-rank test", family.tests,
+        {show(&TermResult::subject, "factor", Kind::kText),
+         show(&TermResult::statistic, "chi-squared"),
+         {{"df", Kind::kCount}, degrees},
+         show(&TermResult::p, "p-value", Kind::kP)}));
+    finding.tests.push_back(std::move(family));
+  }
   finding.tables.push_back(std::move(curves));
 }
 

@@ -7,6 +7,7 @@
 #include "kith/stats/equivalence.hpp"
 #include "kith/stats/multiple.hpp"
 #include "model_means.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -18,30 +19,59 @@ constexpr std::size_t kMostSimpleEffects = 12;  // levels of a factor at each of
 
 bool is_difference(const FixedEffects& model) { return model.link == Link::kIdentity; }
 
-// What a comparison is, in the singular, as a head of a column.
-const char* comparison_name(Link link) {
-  return link == Link::kIdentity ? "difference" : link == Link::kLog ? "ratio" : "odds ratio";
+using Scale = ComparisonFamily::Scale;
+
+Scale scale_of(Link link) {
+  switch (link) {
+    case Link::kIdentity:
+      return Scale::kDifference;
+    case Link::kLog:
+      return Scale::kRatio;
+    case Link::kLogit:
+      return Scale::kOddsRatio;
+  }
+  return Scale::kDifference;
 }
 
-// Estimate, its limits and what else a row of comparisons has; missing where it cannot be estimated.
+// What a comparison is, in the singular, as a head of a column.
+const char* comparison_name(Scale scale) {
+  switch (scale) {
+    case Scale::kDifference:
+      return "difference";
+    case Scale::kRatio:
+      return "ratio";
+    case Scale::kOddsRatio:
+      return "odds ratio";
+  }
+  return "";
+}
+
+// A comparison on the scale of the model.
 struct Comparison {
   LinearEstimate estimate;
   std::string group;  // the level of the `by` factor; may be empty
 };
 
-ResultTable comparison_table(const std::string& caption, const std::string& first, const std::string& by, Link link,
-                             bool with_d, bool is_corrected) {
-  ResultTable table{caption, {}, {}};
-  if (!by.empty()) table.columns.push_back({by, Kind::kText, by});
-  table.columns.push_back({first, Kind::kText});
-  table.columns.push_back({comparison_name(link)});
-  table.columns.insert(table.columns.end(), {{"lower limit"}, {"upper limit"}});
-  if (with_d)
-    table.columns.insert(
-        table.columns.end(),
-        {{"d", Kind::kFraction}, {"d, lower limit", Kind::kFraction}, {"d, upper limit", Kind::kFraction}});
-  table.columns.push_back({is_corrected ? "adjusted p-value" : "p-value", Kind::kP});
-  return table;
+ResultTable comparison_table(const std::string& caption, const std::string& first, const ComparisonFamily& family,
+                             bool is_corrected) {
+  using Result = ComparisonResult;
+  std::vector<ShownColumn<Result>> columns;
+  const auto add = [&](auto part, const std::string& name, Kind kind, const std::string& field = "") {
+    columns.push_back(show(part, name, kind, field));
+  };
+  if (!family.by.empty()) add(&Result::at, family.by, Kind::kText, family.by);
+  add(&Result::name, first, Kind::kText);
+  add(&Result::estimate, comparison_name(family.scale), Kind::kNumber);
+  add(&Result::low, "lower limit", Kind::kNumber);
+  add(&Result::high, "upper limit", Kind::kNumber);
+  if (family.scale == Scale::kDifference) {
+    add(&Result::d, "d", Kind::kFraction);
+    add(&Result::d_low, "d, lower limit", Kind::kFraction);
+    add(&Result::d_high, "d, upper limit", Kind::kFraction);
+  }
+  add(&Result::p, family.is_adjusted ? "adjusted p-value" : "p-value", Kind::kP);
+  if (is_corrected) add(&Result::corrected_p, "corrected p-value", Kind::kP);
+  return shown(caption, family.comparisons, columns);
 }
 
 // An estimate that is as small beside its limits as rounding makes it is 0.
@@ -50,27 +80,30 @@ double without_rounding(double estimate, double low, double high) {
   return std::abs(estimate) <= kRounding * std::max(std::abs(low), std::abs(high)) ? 0.0 : estimate;
 }
 
-void add_row(const Comparison& comparison, const FixedEffects& model, bool by, bool with_d, ResultTable& table) {
-  auto& row = table.rows.emplace_back();
-  if (by) row.push_back(text_cell(comparison.group));
-  row.push_back(text_cell(comparison.estimate.name));
-  const auto shown = response_contrast(model.link, comparison.estimate);
-  if (shown) {
-    row.insert(row.end(), {without_rounding(shown->estimate, shown->low, shown->high), shown->low, shown->high});
-  } else {
-    row.insert(row.end(), {is_difference(model) ? cell_of(comparison.estimate.estimate) : TableCell{}, {}, {}});
+// A comparison as people read it; missing where it cannot be estimated.
+ComparisonResult result_of(const Comparison& comparison, const FixedEffects& model) {
+  const auto& [estimate, group] = comparison;
+  ComparisonResult result{.name = estimate.name, .at = group};
+  if (const auto shown = response_contrast(model.link, estimate)) {
+    result.estimate = without_rounding(shown->estimate, shown->low, shown->high);
+    result.low = shown->low;
+    result.high = shown->high;
+  } else if (is_difference(model)) {
+    result.estimate = known(estimate.estimate);
   }
-  const auto& inference = comparison.estimate.inference;
-  if (with_d) {
-    if (comparison.estimate.estimate && inference && model.residual_sd) {
-      const double sd = *model.residual_sd;
-      const double difference = without_rounding(*comparison.estimate.estimate, inference->low, inference->high);
-      row.insert(row.end(), {difference / sd, inference->low / sd, inference->high / sd});
-    } else {
-      row.insert(row.end(), {TableCell{}, {}, {}});
-    }
+  if (!estimate.inference) return result;
+
+  const auto& inference = *estimate.inference;
+  result.t = inference.statistic;
+  if (std::isfinite(inference.df)) result.df = inference.df;
+  result.p = inference.p;
+  if (is_difference(model) && estimate.estimate && model.residual_sd) {
+    const double sd = *model.residual_sd;
+    result.d = without_rounding(*estimate.estimate, inference.low, inference.high) / sd;
+    result.d_low = inference.low / sd;
+    result.d_high = inference.high / sd;
   }
-  row.push_back(cell_of(inference, &Inference::p));
+  return result;
 }
 
 // Whether any of them could be estimated.
@@ -142,22 +175,26 @@ class EquivalenceTests {
   std::size_t equivalent_ = 0, others_ = 0;
 };
 
-ResultTable means_table(const std::string& factor, const MarginalMeans& means, Link link) {
-  ResultTable table{"Estimated marginal means of " + factor,
-                    {{factor, Kind::kText, factor}, {"mean"}, {"lower limit"}, {"upper limit"}, {"n", Kind::kCount}},
-                    {}};
+MeanFamily means_of_levels(const std::string& factor, const MarginalMeans& means, Link link) {
+  MeanFamily family{factor, {}};
   for (const auto& mean : means.groups.front().means) {
-    const auto shown = response_mean(link, mean);
-    auto& row = table.rows.emplace_back();
-    row.push_back(text_cell(mean.name));
-    if (shown) {
-      row.insert(row.end(), {shown->estimate, shown->low, shown->high});
-    } else {
-      row.insert(row.end(), {link == Link::kIdentity ? cell_of(mean.estimate) : TableCell{}, {}, {}});
+    auto& result = family.means.emplace_back(MeanResult{.level = mean.name, .n = mean.observations});
+    if (const auto shown = response_mean(link, mean)) {
+      result.mean = shown->estimate;
+      result.low = shown->low;
+      result.high = shown->high;
+    } else if (link == Link::kIdentity) {
+      result.mean = known(mean.estimate);
     }
-    row.push_back(count_cell(mean.observations));
   }
-  return table;
+  return family;
+}
+
+ResultTable means_table(const MeanFamily& family) {
+  return shown<MeanResult>("Estimated marginal means of " + family.factor, family.means,
+                           {show(&MeanResult::level, family.factor, Kind::kText, family.factor),
+                            show(&MeanResult::mean, "mean"), show(&MeanResult::low, "lower limit"),
+                            show(&MeanResult::high, "upper limit"), show(&MeanResult::n, "n", Kind::kCount)});
 }
 
 std::optional<std::size_t> factor_named(const FixedEffects& model, const std::string& name) {
@@ -212,13 +249,14 @@ std::vector<Comparison> planned(const FixedEffects& model, std::size_t factor, s
 class Writer {
  public:
   Writer(const FixedEffects& model, const AnalysisOptions& options, Finding& finding, std::vector<ResultTable>& tables)
-      : model_{model}, options_{options}, finding_{finding}, tables_{tables}, with_d_{is_difference(model)} {}
+      : model_{model}, options_{options}, finding_{finding}, tables_{tables} {}
 
   void add_means() {
     for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
       const auto& factor = model_.design.factors[f];
       if (factor.levels.size() < 2 || factor.levels.size() > kMostMeans) continue;
-      tables_.push_back(means_table(factor.name, means_of(f, {}), model_.link));
+      finding_.means.push_back(means_of_levels(factor.name, means_of(f, {}), model_.link));
+      tables_.push_back(means_table(finding_.means.back()));
     }
     if (!model_.design.factors.empty()) add_method(finding_, {"estimated marginal means", "searle1980"});
   }
@@ -294,8 +332,9 @@ class Writer {
                         : std::string{is_family               ? "Tukey-Kramer"
                                       : is_difference(model_) ? "t test"
                                                               : "Wald test"};
-    auto what = fmt::format("Pairs of {} ({})", factor.name, how);
-    add_table(what, "pair", by_name, comparisons, is_family);
+    ComparisonFamily family{
+        .kind = ComparisonFamily::Kind::kPairs, .factor = factor.name, .by = by_name, .is_adjusted = is_family};
+    add_family(fmt::format("Pairs of {} ({})", factor.name, how), "pair", std::move(family), comparisons);
     if (is_family && !comparisons.empty())
       add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
     EquivalenceTests equivalence{model_, options_};
@@ -309,10 +348,13 @@ class Writer {
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
     const bool is_family = !by && contrasts.size() > 1 && options_.correction != Correction::kNone;
     const auto how = is_family ? fmt::format(" ({} correction)", to_string(options_.correction)) : std::string{};
-    add_table(fmt::format("Planned contrasts of {}{}{}", model_.design.factors[f].name,
-                          by ? " at each level of " + by_name : std::string{}, how),
-              "contrast", by_name, comparisons, is_family);
-    if (by) correct_over_levels(comparisons);
+    ComparisonFamily family{.kind = ComparisonFamily::Kind::kPlanned,
+                            .factor = model_.design.factors[f].name,
+                            .by = by_name,
+                            .is_adjusted = is_family};
+    add_family(fmt::format("Planned contrasts of {}{}{}", family.factor,
+                           by ? " at each level of " + by_name : std::string{}, how),
+               "contrast", family, comparisons);
     add_method(finding_, {"planned contrasts of estimated marginal means" + how});
     // Simple effects are in their table; what is said of them is corrected there.
     if (!by) {
@@ -324,31 +366,25 @@ class Writer {
     equivalence.finish("planned contrasts" + (by ? " within " + by_name : std::string{}), finding_, tables_);
   }
 
-  // Adds the p-values corrected for all contrasts at all levels to the table written last, and says which remain.
-  void correct_over_levels(const std::vector<Comparison>& comparisons) {
-    if (options_.correction == Correction::kNone || comparisons.empty()) return;
+  // Corrects the p-values for all contrasts at all levels, and says which remain.
+  void correct_over_levels(ComparisonFamily& family) {
     std::vector<double> p_values;
-    for (const auto& one : comparisons) {
-      if (one.estimate.inference) p_values.push_back(one.estimate.inference->p);
+    for (const auto& one : family.comparisons) {
+      if (one.p) p_values.push_back(*one.p);
     }
     const auto corrected = adjust(p_values, options_.correction);
-    auto& table = tables_.back();
-    table.columns.push_back({"corrected p-value", Kind::kP});
     std::size_t next = 0;
     std::string found;
-    for (std::size_t i = 0; i < comparisons.size(); ++i) {
-      const auto& one = comparisons[i];
-      auto& cell = table.rows[i].emplace_back();
-      if (!one.estimate.inference) continue;
-      const double p = corrected[next++];
-      cell = p;
-      if (p >= options_.alpha) continue;
-      found += fmt::format("{}{} at {} ({})", found.empty() ? "" : ", ", one.estimate.name, one.group, p_text(p));
+    for (auto& one : family.comparisons) {
+      if (!one.p) continue;
+      one.corrected_p = corrected[next++];
+      if (*one.corrected_p >= options_.alpha) continue;
+      found += fmt::format("{}{} at {} ({})", found.empty() ? "" : ", ", one.name, one.at, p_text(*one.corrected_p));
     }
     finding_.sentence += found.empty()
                              ? fmt::format(" At single levels of {}, no contrast differs from 0 ({} correction).",
-                                           table.columns.front().name, to_string(options_.correction))
-                             : fmt::format(" At single levels of {} ({} correction): {}.", table.columns.front().name,
+                                           family.by, to_string(options_.correction))
+                             : fmt::format(" At single levels of {} ({} correction): {}.", family.by,
                                            to_string(options_.correction), found);
   }
 
@@ -363,13 +399,18 @@ class Writer {
                        p_text(one.estimate.inference->p));
   }
 
-  void add_table(const std::string& caption, const std::string& first, const std::string& by,
-                 const std::vector<Comparison>& comparisons, bool is_corrected) {
+  void add_family(const std::string& caption, const std::string& first, ComparisonFamily family,
+                  const std::vector<Comparison>& comparisons) {
     if (comparisons.empty()) return;
-    auto table = comparison_table(caption, first, by, model_.link, with_d_, is_corrected);
-    for (const auto& one : comparisons) add_row(one, model_, !by.empty(), with_d_, table);
+    family.scale = scale_of(model_.link);
+    for (const auto& one : comparisons) family.comparisons.push_back(result_of(one, model_));
     warn_of_missing(comparisons);
-    tables_.push_back(std::move(table));
+
+    const bool is_corrected = family.kind == ComparisonFamily::Kind::kPlanned && !family.by.empty() &&
+                              options_.correction != Correction::kNone;
+    if (is_corrected) correct_over_levels(family);
+    tables_.push_back(comparison_table(caption, first, family, is_corrected));
+    finding_.comparisons.push_back(std::move(family));
   }
 
   // One note for all comparisons that cannot be made for the same reason.
@@ -396,7 +437,6 @@ class Writer {
   const AnalysisOptions& options_;
   Finding& finding_;
   std::vector<ResultTable>& tables_;
-  bool with_d_;
 };
 
 }  // namespace

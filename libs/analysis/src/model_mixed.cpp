@@ -6,6 +6,7 @@
 #include "kith/stats/design_effect.hpp"
 #include "kith/stats/mixed_model.hpp"
 #include "model_means.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -14,28 +15,23 @@ using Kind = ResultKind;
 
 constexpr std::size_t kFewGroups = 10;  // below it variances between groups are very uncertain
 
-std::string degrees(double df) { return std::isinf(df) ? "inf" : fmt::format("{:.1f}", df); }
+TestFamily tests_with_effects(const std::vector<TermTest>& tests, double alpha) {
+  auto family = tests_of(tests, TestFamily::Residuals::kOneDecimal);
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    family.tests[t] = with_effect(family.tests[t], eta_squared_of(tests[t].test, alpha));
+  return family;
+}
 
-ResultTable tests_table(const std::string& caption, const std::vector<TermTest>& tests, double alpha) {
-  ResultTable table{caption,
-                    {{"term", Kind::kText},
-                     {"df", Kind::kCount},
-                     {"residual df", Kind::kText},
-                     {"F"},
-                     {"p-value", Kind::kP},
-                     {"partial eta squared", Kind::kFraction},
-                     {"lower limit", Kind::kFraction},
-                     {"upper limit", Kind::kFraction}},
-                    {}};
-  for (const auto& term : tests) {
-    const auto eta_squared = eta_squared_of(term.test, alpha);
-    table.rows.push_back({text_cell(term.name), count_cell(term.df),
-                          text_cell(term.test ? degrees(term.test->df.at(1)) : ""),
-                          cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
-                          cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
-                          cell_of(eta_squared, &Interval::high)});
-  }
-  return table;
+ResultTable tests_table(const std::string& caption, const TestFamily& family) {
+  const auto residuals = [kind = family.residuals](const TermResult& test) {
+    return text_cell(residuals_text(test, kind));
+  };
+  return shown(caption, family.tests,
+               with_effect_columns({show(&TermResult::subject, "term", Kind::kText),
+                                    show(&TermResult::df, "df", Kind::kCount),
+                                    {{"residual df", Kind::kText}, residuals},
+                                    show(&TermResult::statistic, "F"),
+                                    show(&TermResult::p, "p-value", Kind::kP)}));
 }
 
 ResultTable variances_table(const MixedModel& model, const std::vector<Factor>& groups) {
@@ -120,7 +116,8 @@ void add_mixed_results(const ModelData& data, const MixedModel& model, const Ana
   const auto tests = term_tests(model.fixed, SumsOfSquares::kTypeII);
   std::vector<ResultTable> tables;
   if (!data.terms.empty()) {
-    tables.push_back(tests_table("Tests of the fixed effects (type II, Satterthwaite)", tests, options.alpha));
+    finding.tests.push_back(tests_with_effects(tests, options.alpha));
+    tables.push_back(tests_table("Tests of the fixed effects (type II, Satterthwaite)", finding.tests.back()));
     add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
     add_method(finding, eta_squared_method(options.alpha));
   }
@@ -135,8 +132,10 @@ void add_mixed_results(const ModelData& data, const MixedModel& model, const Ana
       auto text = type_disagreement(tests[t].name, tests[t].test, other[t].test, options.alpha);
       if (!text.empty()) finding.warnings.push_back(std::move(text));
     }
-    if (any)
-      tables.push_back(tests_table("Tests of the fixed effects (type III, Satterthwaite)", other, options.alpha));
+    if (any) {
+      finding.tests.push_back(tests_with_effects(other, options.alpha));
+      tables.push_back(tests_table("Tests of the fixed effects (type III, Satterthwaite)", finding.tests.back()));
+    }
   }
   tables.push_back(variances_table(model, data.groups));
   if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) tables.push_back(std::move(*means));

@@ -5,6 +5,7 @@
 
 #include "kith/stats/cumulative_logit.hpp"
 #include "model_means.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -60,18 +61,19 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
   if (!model) {
     finding.sentence += " It cannot be fitted, so nothing is tested: " + model.reason() + ".";
   } else {
-    ResultTable tests{"Likelihood-ratio tests (proportional odds model, type II)",
-                      {{"term", Kind::kText}, {"df", Kind::kCount}, {"chi-squared"}, {"p-value", Kind::kP}},
-                      {}};
     for (std::size_t t = 0; t < model->term_tests.size(); ++t) {
-      const auto& term = model->term_tests[t];
-      finding.sentence += " " + term_sentence(data, t, term.test, Estimable<Interval>::impossible("of a linear model"),
-                                              nullptr, options.alpha);
-      tests.rows.push_back({text_cell(term.name), count_cell(term.df), cell_of(term.test, &TestResult::statistic),
-                            cell_of(term.test, &TestResult::p)});
+      finding.sentence +=
+          " " + term_sentence(data, t, model->term_tests[t].test, Estimable<Interval>::impossible("of a linear model"),
+                              nullptr, options.alpha);
     }
-    if (!tests.rows.empty()) {
-      finding.tables.push_back(std::move(tests));
+    if (!model->term_tests.empty()) {
+      auto family = tests_of(model->term_tests, TestFamily::Residuals::kWhole);
+      family.statistic = TestFamily::Statistic::kChiSquared;
+      finding.tables.push_back(
+          shown<TermResult>("Likelihood-ratio tests (proportional odds model, type II)", family.tests,
+                            {show(&TermResult::subject, "term", Kind::kText), show(&TermResult::df, "df", Kind::kCount),
+                             show(&TermResult::statistic, "chi-squared"), show(&TermResult::p, "p-value", Kind::kP)}));
+      finding.tests.push_back(std::move(family));
       finding.sentence += " An odds ratio above 1 stands for higher ratings.";
     }
     add_method(finding, {"proportional odds model with likelihood-ratio tests", "mccullagh1980"});

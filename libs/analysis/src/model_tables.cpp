@@ -6,6 +6,7 @@
 
 #include "kith/stats/moments.hpp"
 #include "model_means.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -33,64 +34,33 @@ ResultTable cell_means(const ModelData& data, double confidence, bool with_limit
     const auto interval = mean_interval(groups[cell], confidence);
     row.push_back(groups[cell].size() == 1 ? number_cell(groups[cell].front())
                                            : cell_of(interval, &Interval::estimate));
-    const auto sd = standard_deviation(groups[cell]);
-    row.push_back(sd ? number_cell(*sd) : cell_of(interval, &Interval::low));
+    row.push_back(cell_of(standard_deviation(groups[cell])));
     if (with_limits) row.insert(row.end(), {cell_of(interval, &Interval::low), cell_of(interval, &Interval::high)});
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-std::vector<TableCell> test_cells(const AnovaTerm& term) {
-  return {text_cell(term.name), count_cell(term.df), TableCell{term.sum_of_squares},
-          cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p)};
-}
-
-const std::vector<ResultColumn> kTestColumns{{"term", Kind::kText},
-                                             {"df", Kind::kCount},
-                                             {"sum of squares", Kind::kNumber},
-                                             {"F", Kind::kNumber},
-                                             {"p-value", Kind::kP}};
-
-ResultTable anova_table(const ModelResult& result) {
-  ResultTable table{"Analysis of variance (type II)", kTestColumns, {}};
-  table.columns.insert(
-      table.columns.end(),
-      {{"partial eta squared", Kind::kFraction}, {"lower limit", Kind::kFraction}, {"upper limit", Kind::kFraction}});
-  for (std::size_t t = 0; t < result.table.terms.size(); ++t) {
-    auto row = test_cells(result.table.terms[t]);
-    row.push_back(cell_of(result.table.terms[t].partial_eta_squared));
-    row.push_back(cell_of(result.eta_squared[t], &Interval::low));
-    row.push_back(cell_of(result.eta_squared[t], &Interval::high));
-    table.rows.push_back(std::move(row));
+TestFamily type_two_tests(const ModelResult& result) {
+  auto family = tests_of(result.table);
+  for (std::size_t t = 0; t < family.tests.size(); ++t) {
+    family.tests[t].effect = known(result.table.terms[t].partial_eta_squared);
+    family.tests[t].low = known(result.eta_squared[t], &Interval::low);
+    family.tests[t].high = known(result.eta_squared[t], &Interval::high);
+    family.tests[t].permutation_p = known(result.permutation_p[t]);
+    family.tests[t].rank_p = known(result.rank_p[t]);
   }
-  std::vector<TableCell> residuals(table.columns.size(), text_cell(""));
-  residuals[0] = text_cell("residuals");
-  residuals[1] = count_cell(result.table.residual_df);
-  residuals[2] = result.table.residual_sum_of_squares;
-  table.rows.push_back(std::move(residuals));
-  return table;
+  return family;
 }
 
 // Tests that do not assume normal residuals.
-ResultTable robust_table(const ModelData& data, const ModelResult& result) {
+ResultTable robust_table(const ModelData& data, const TestFamily& family) {
   const bool single = data.factors.size() == 1;
-  ResultTable table{"Permutation and rank tests",
-                    {{"term", Kind::kText},
-                     {"p-value, permutation", Kind::kP},
-                     {single ? "p-value, Kruskal-Wallis" : "p-value, aligned ranks", Kind::kP}},
-                    {}};
-  for (std::size_t t = 0; t < result.table.terms.size(); ++t) {
-    table.rows.push_back(
-        {text_cell(result.table.terms[t].name), cell_of(result.permutation_p[t]), cell_of(result.rank_p[t])});
-  }
-  return table;
-}
-
-ResultTable type_three_table(const AnovaTable& type_three) {
-  ResultTable table{"Analysis of variance (type III)", kTestColumns, {}};
-  for (const auto& term : type_three.terms) table.rows.push_back(test_cells(term));
-  return table;
+  return shown<TermResult>(
+      "Permutation and rank tests", family.tests,
+      {show(&TermResult::subject, "term", Kind::kText),
+       show(&TermResult::permutation_p, "p-value, permutation", Kind::kP),
+       show(&TermResult::rank_p, single ? "p-value, Kruskal-Wallis" : "p-value, aligned ranks", Kind::kP)});
 }
 
 ResultTable welch_table(const ModelData& data) {
@@ -146,11 +116,13 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
                        Finding& finding, const std::string& about) {
   std::vector<ResultTable> tables;
   if (data.factors.empty()) return;
-  tables.push_back(anova_table(result));
-  tables.push_back(robust_table(data, result));
+  finding.tests.push_back(type_two_tests(result));
+  tables.push_back(anova_table("Analysis of variance (type II)", finding.tests.back(), result.table, true));
+  tables.push_back(robust_table(data, finding.tests.back()));
   if (!result.table.balanced && data.factors.size() > 1) {
     const auto other = anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeIII);
-    tables.push_back(type_three_table(other));
+    finding.tests.push_back(tests_of(other));
+    tables.push_back(anova_table("Analysis of variance (type III)", finding.tests.back(), other, false));
     for (std::size_t t = 0; t < other.terms.size(); ++t) {
       auto text =
           type_disagreement(other.terms[t].name, result.table.terms[t].test, other.terms[t].test, options.alpha);

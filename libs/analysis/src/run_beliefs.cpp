@@ -10,6 +10,7 @@
 #include "model_means.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -97,20 +98,18 @@ Estimable<TestResult> test_dependence(const BeliefTeams& beliefs, const Factor& 
 }
 
 void add_dependence(const Estimable<TestResult>& test, const AnalysisOptions& options, Finding& finding) {
-  const auto eta_squared = eta_squared_of(test, options.alpha);
-  finding.tables.push_back({"Does the difference between beliefs depend on the composition?",
-                            {{"term", Kind::kText},
-                             {"df", Kind::kText},
-                             {"F"},
-                             {"p-value", Kind::kP},
-                             {"partial eta squared", Kind::kFraction},
-                             {"lower limit", Kind::kFraction},
-                             {"upper limit", Kind::kFraction}},
-                            {{text_cell("belief:composition"),
-                              text_cell(test ? fmt::format("{:.0f}, {:.0f}", test->df[0], test->df[1]) : ""),
-                              cell_of(test, &TestResult::statistic), cell_of(test, &TestResult::p),
-                              cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
-                              cell_of(eta_squared, &Interval::high)}}});
+  TestFamily family;
+  const auto df = test ? static_cast<std::size_t>(test->df.front()) : 0;
+  family.tests.push_back(with_effect(term_result("belief:composition", df, test), eta_squared_of(test, options.alpha)));
+  const auto degrees = [residuals = family.residuals](const TermResult& one) {
+    return text_cell(one.statistic ? degrees_text(one, residuals) : "");
+  };
+  finding.tables.push_back(shown("Does the difference between beliefs depend on the composition?", family.tests,
+                                 with_effect_columns({show(&TermResult::subject, "term", Kind::kText),
+                                                      {{"df", Kind::kText}, degrees},
+                                                      show(&TermResult::statistic, "F"),
+                                                      show(&TermResult::p, "p-value", Kind::kP)})));
+  finding.tests.push_back(std::move(family));
   if (!test) return;
   finding.sentence +=
       test->p < options.alpha
@@ -206,7 +205,11 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
                      {"p-value, Brown-Forsythe", Kind::kP}},
                     {}};
   // Rows whose code is `level`; all of them for the number of levels.
-  const auto add = [&](const std::string& name, std::size_t level) -> Estimable<VarianceRatio> {
+  struct Variation {
+    Estimable<VarianceRatio> ratio;
+    Estimable<TestResult> robust;
+  };
+  const auto add = [&](const std::string& name, std::size_t level) -> Variation {
     std::vector<double> team, individual, both;
     Factor belief{"belief", found->belief.levels, {}};
     Factor cluster{"people", is_clustered ? people.front().levels : std::vector<std::string>{}, {}};
@@ -234,10 +237,9 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
       finding.warnings.push_back(name + ": no variance ratio: " + ratio.reason());
     }
     row.push_back(cell_of(robust, &TestResult::p));
-    return ratio;
+    return {ratio, robust};
   };
-  const auto overall = add("all", composition.levels.size());
-  const auto robust = std::get_if<double>(&table.rows.front().back());
+  const auto [overall, robust] = add("all", composition.levels.size());
   finding.sentence = fmt::format("Standard deviations of {} over {} teams of all compositions.", label, part.size());
   if (overall) {
     finding.sentence = fmt::format(
@@ -248,13 +250,13 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
         overall->test.p >= options.alpha ? "no difference was found (" + p_text(overall->test.p) + ")"
         : overall->ratio.estimate < 1.0  ? "they make it vary less (" + p_text(overall->test.p) + ")"
                                          : "they make it vary more (" + p_text(overall->test.p) + ")");
-    if (robust != nullptr && (*robust < options.alpha) != (overall->test.p < options.alpha))
+    if (robust && (robust->p < options.alpha) != (overall->test.p < options.alpha))
       finding.warnings.push_back(
-          is_clustered
-              ? fmt::format("the Brown-Forsythe test of spread disagrees with that of variances ({})", p_text(*robust))
-              : fmt::format("the F test assumes normal values, and the Brown-Forsythe test, which does not, "
-                            "disagrees ({})",
-                            p_text(*robust)));
+          is_clustered ? fmt::format("the Brown-Forsythe test of spread disagrees with that of variances ({})",
+                                     p_text(robust->p))
+                       : fmt::format("the F test assumes normal values, and the Brown-Forsythe test, which does not, "
+                                     "disagrees ({})",
+                                     p_text(robust->p)));
   }
   if (composition.levels.size() > 1) {
     for (std::size_t level = 0; level < composition.levels.size(); ++level) (void)add(composition.levels[level], level);

@@ -6,6 +6,7 @@
 #include "kith/stats/mixed_model.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -36,11 +37,6 @@ WithinTest test_within(const std::vector<double>& values, const Factor& strategy
   return tests;
 }
 
-std::string degrees_text(const TestResult& test) {
-  return std::isinf(test.df[1]) ? fmt::format("{:.0f}, inf", test.df[0])
-                                : fmt::format("{:.0f}, {:.4g}", test.df[0], test.df[1]);
-}
-
 }  // namespace
 
 void add_as_published(const ModelData& model, const AnalysisOptions& options, Finding& finding) {
@@ -51,29 +47,15 @@ void add_as_published(const ModelData& model, const AnalysisOptions& options, Fi
       "strategies and finds differences between compositions too often",
       model.values.size(), model.groups.front().levels.size()));
   const auto table = anova(model.values, model.factors, model.terms, SumsOfSquares::kTypeII);
-  ResultTable result{"Analysis of variance as published, all teams taken as independent (type II)",
-                     {{"term", Kind::kText},
-                      {"df", Kind::kCount},
-                      {"sum of squares"},
-                      {"F"},
-                      {"p-value", Kind::kP},
-                      {"partial eta squared", Kind::kFraction},
-                      {"lower limit", Kind::kFraction},
-                      {"upper limit", Kind::kFraction}},
-                     {}};
-  for (const auto& term : table.terms) {
-    const auto eta_squared = eta_squared_of(term.test, options.alpha);
-    result.rows.push_back({text_cell(term.name), count_cell(term.df), term.sum_of_squares,
-                           cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
-                           cell_of(term.partial_eta_squared), cell_of(eta_squared, &Interval::low),
-                           cell_of(eta_squared, &Interval::high)});
+  auto family = tests_of(table);
+  for (std::size_t t = 0; t < table.terms.size(); ++t) {
+    auto& test = family.tests[t];
+    test = with_effect(test, eta_squared_of(table.terms[t].test, options.alpha));
+    test.effect = known(table.terms[t].partial_eta_squared);
   }
-  std::vector<TableCell> residuals(result.columns.size(), text_cell(""));
-  residuals[0] = text_cell("residuals");
-  residuals[1] = count_cell(table.residual_df);
-  residuals[2] = table.residual_sum_of_squares;
-  result.rows.push_back(std::move(residuals));
-  finding.tables.push_back(std::move(result));
+  finding.tables.push_back(
+      anova_table("Analysis of variance as published, all teams taken as independent (type II)", family, table, true));
+  finding.tests.push_back(std::move(family));
 }
 
 std::optional<Finding> effects(const RunTeams& teams, const std::string& response, const std::vector<double>& values,
@@ -107,17 +89,7 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
                   .model = response + " ~ strategy, for each composition separately"};
   const auto people = shared_people(teams, rows);
   const std::string tests = people.empty() ? "One-way analyses of variance" : "Tests within the same people";
-  ResultTable table{tests + " (" + correction + ")",
-                    {{"composition", Kind::kText},
-                     {"df", Kind::kText},
-                     {"F", Kind::kNumber},
-                     {"p-value", Kind::kP},
-                     {"corrected p-value", Kind::kP},
-                     {"partial eta squared", Kind::kFraction},
-                     {"lower limit", Kind::kFraction},
-                     {"upper limit", Kind::kFraction},
-                     {people.empty() ? "Kruskal-Wallis p-value" : "Friedman p-value", Kind::kP}},
-                    {}};
+  TestFamily family{.residuals = TestFamily::Residuals::kFourDigits, .are_terms = false};
   std::vector<double> p_values;
   std::vector<std::size_t> tested;
   bool any_ranks = false;
@@ -129,25 +101,22 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
     const auto group_values = selected(values, part);
     const auto strategy = selected(teams.strategy, part);
     const auto [test, ranks] = test_within(group_values, strategy, shared_people(teams, part));
-    std::vector<TableCell> row{text_cell(compositions.levels[level])};
-    if (test) {
-      const auto eta_squared = eta_squared_of(test, options.alpha);
-      p_values.push_back(test->p);
-      tested.push_back(level);
-      any_ranks = any_ranks || ranks;
-      row.insert(row.end(), {text_cell(degrees_text(*test)), test->statistic, test->p, TableCell{},
-                             cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
-                             cell_of(eta_squared, &Interval::high), cell_of(ranks, &TestResult::p)});
-    } else {
-      row.resize(table.columns.size());
+    const auto df = test ? static_cast<std::size_t>(test->df.front()) : 0;
+    auto& result = family.tests.emplace_back(term_result(compositions.levels[level], df, test));
+    if (!test) {
       finding.warnings.push_back(compositions.levels[level] + ": no test: " + test.reason());
+      continue;
     }
-    table.rows.push_back(std::move(row));
+    result = with_effect(result, eta_squared_of(test, options.alpha));
+    result.rank_p = known(ranks, &TestResult::p);
+    any_ranks = any_ranks || ranks;
+    p_values.push_back(test->p);
+    tested.push_back(level);
   }
   const auto corrected = adjust(p_values, options.correction);
   std::string found;
   for (std::size_t i = 0; i < tested.size(); ++i) {
-    table.rows[tested[i]][4] = corrected[i];
+    family.tests[tested[i]].corrected_p = corrected[i];
     if (corrected[i] >= options.alpha) continue;
     found += fmt::format("{}{} ({})", found.empty() ? "" : ", ", compositions.levels[tested[i]], p_text(corrected[i]));
   }
@@ -166,7 +135,18 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
   if (!tested.empty()) add_method(finding, eta_squared_method(options.alpha));
   if (any_ranks)
     add_method(finding, {people.empty() ? "Kruskal-Wallis tests (uncorrected)" : "Friedman tests (uncorrected)"});
-  finding.tables.push_back(std::move(table));
+  const auto degrees = [residuals = family.residuals](const TermResult& test) {
+    return test.statistic ? text_cell(degrees_text(test, residuals)) : TableCell{};
+  };
+  auto columns = with_effect_columns({show(&TermResult::subject, "composition", Kind::kText),
+                                      {{"df", Kind::kText}, degrees},
+                                      show(&TermResult::statistic, "F"),
+                                      show(&TermResult::p, "p-value", Kind::kP),
+                                      show(&TermResult::corrected_p, "corrected p-value", Kind::kP)});
+  columns.push_back(
+      show(&TermResult::rank_p, people.empty() ? "Kruskal-Wallis p-value" : "Friedman p-value", Kind::kP));
+  finding.tables.push_back(shown(tests + " (" + correction + ")", family.tests, columns));
+  finding.tests.push_back(std::move(family));
   return finding;
 }
 

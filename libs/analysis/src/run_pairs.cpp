@@ -10,6 +10,7 @@
 #include "kith/stats/moments.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -40,28 +41,49 @@ Blocks blocks_of(const RunTeams& teams, const std::vector<double>& values) {
   return blocks;
 }
 
-struct Pair {
-  std::string name;
-  std::size_t n = 0;
-  Estimable<MeanDifference> difference;
-  std::optional<Interval> d_z = {};  // mean over standard deviation of the differences
-};
+// Differences of pairs; standardised by their own standard deviation.
+ComparisonResult paired_comparison(const std::string& name, std::size_t n, const Estimable<MeanDifference>& difference,
+                                   double confidence) {
+  ComparisonResult result{.name = name, .n = n};
+  if (!difference) return result;
+  const auto& test = difference->test;
+  const auto d =
+      standardized_interval(test.statistic, test.df.front(), 1.0 / std::sqrt(static_cast<double>(n)), confidence);
+  result.estimate = difference->difference;
+  result.low = difference->low;
+  result.high = difference->high;
+  result.d = d.estimate;
+  result.d_low = d.low;
+  result.d_high = d.high;
+  result.t = test.statistic;
+  result.df = test.df.front();
+  result.p = test.p;
+  return result;
+}
 
-Pair compare(const Blocks& blocks, std::size_t a, std::size_t b, double confidence) {
+// Everything up to the tests.
+std::vector<ShownColumn<ComparisonResult>> paired_columns(const std::string& first) {
+  return {show(&ComparisonResult::name, first, Kind::kText),
+          show(&ComparisonResult::n, "n", Kind::kCount),
+          show(&ComparisonResult::estimate, "difference"),
+          show(&ComparisonResult::low, "lower limit"),
+          show(&ComparisonResult::high, "upper limit"),
+          show(&ComparisonResult::d, "d", Kind::kFraction),
+          show(&ComparisonResult::d_low, "d, lower limit", Kind::kFraction),
+          show(&ComparisonResult::d_high, "d, upper limit", Kind::kFraction)};
+}
+
+ComparisonResult compare(const Blocks& blocks, std::size_t a, std::size_t b, double confidence, Finding& finding) {
   std::vector<double> first, second;
   for (const auto& block : blocks.values) {
     if (!block[a] || !block[b]) continue;
     first.push_back(*block[a]);
     second.push_back(*block[b]);
   }
-  Pair pair{blocks.strategies[a] + " - " + blocks.strategies[b], first.size(),
-            paired_t_test(first, second, confidence)};
-  if (pair.difference) {
-    const auto& test = pair.difference->test;
-    const double unit = 1.0 / std::sqrt(static_cast<double>(first.size()));
-    pair.d_z = standardized_interval(test.statistic, test.df.front(), unit, confidence);
-  }
-  return pair;
+  const auto name = blocks.strategies[a] + " - " + blocks.strategies[b];
+  const auto difference = paired_t_test(first, second, confidence);
+  if (!difference) finding.warnings.push_back(name + ": no test: " + difference.reason());
+  return paired_comparison(name, first.size(), difference, confidence);
 }
 
 // The same tests with corrected degrees of freedom, and whether they need that.
@@ -117,25 +139,24 @@ void add_blocked(const Blocks& blocks, double alpha, Finding& finding) {
     finding.warnings.push_back("no analysis of variance within people: " + table.reason());
     return;
   }
-  ResultTable result{"Analysis of variance within people",
-                     {{"term", Kind::kText},
-                      {"df", Kind::kText},
-                      {"F", Kind::kNumber},
-                      {"p-value", Kind::kP},
-                      {"partial eta squared", Kind::kFraction},
-                      {"lower limit", Kind::kFraction},
-                      {"upper limit", Kind::kFraction}},
-                     {}};
+  TestFamily family;
   for (const auto& term : table->terms) {
-    const auto eta_squared = eta_squared_of(term.test, alpha);
-    result.rows.push_back({text_cell(term.name), text_cell(fmt::format("{}, {}", term.df, table->residual_df)),
-                           cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
-                           cell_of(term.partial_eta_squared), cell_of(eta_squared, &Interval::low),
-                           cell_of(eta_squared, &Interval::high)});
+    auto& test = family.tests.emplace_back(
+        with_effect(term_result(term.name, term.df, term.test), eta_squared_of(term.test, alpha)));
+    test.residual_df = static_cast<double>(table->residual_df);
+    test.effect = known(term.partial_eta_squared);
   }
+  const auto degrees = [residuals = family.residuals](const TermResult& test) {
+    return text_cell(degrees_text(test, residuals));
+  };
   add_method(finding, {"analysis of variance within people"});
   add_method(finding, eta_squared_method(alpha));
-  finding.tables.push_back(std::move(result));
+  finding.tables.push_back(shown("Analysis of variance within people", family.tests,
+                                 with_effect_columns({show(&TermResult::subject, "term", Kind::kText),
+                                                      {{"df", Kind::kText}, degrees},
+                                                      show(&TermResult::statistic, "F"),
+                                                      show(&TermResult::p, "p-value", Kind::kP)})));
+  finding.tests.push_back(std::move(family));
   if (const auto sphericity = check_sphericity(values, within, between, people); sphericity && within.levels.size() > 2)
     add_sphericity(*table, *sphericity, alpha, finding);
 }
@@ -155,51 +176,24 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
                   .title = fmt::format("Same people, different strategies: {}", label),
                   .question = fmt::format("Do strategies differ in {} when they teach the same people?", label),
                   .model = response + " ~ strategy within people"};
-  std::vector<Pair> pairs;
+  ComparisonFamily family{.kind = ComparisonFamily::Kind::kSamePeople, .factor = "strategy"};
   std::vector<double> p_values;
   for (std::size_t a = 0; a < blocks.strategies.size(); ++a) {
     for (std::size_t b = a + 1; b < blocks.strategies.size(); ++b) {
-      auto pair = compare(blocks, a, b, 1.0 - options.alpha);
-      if (pair.difference) {
-        p_values.push_back(pair.difference->test.p);
-      } else {
-        finding.warnings.push_back(pair.name + ": no test: " + pair.difference.reason());
-      }
-      pairs.push_back(std::move(pair));
+      const auto& pair = family.comparisons.emplace_back(compare(blocks, a, b, 1.0 - options.alpha, finding));
+      if (pair.p) p_values.push_back(*pair.p);
     }
   }
+
   const auto corrected = adjust(p_values, Correction::kHolm);
-  ResultTable table{"Differences within groups of the same people (paired t tests, Holm correction)",
-                    {{"pair", Kind::kText},
-                     {"n", Kind::kCount},
-                     {"difference", Kind::kNumber},
-                     {"lower limit", Kind::kNumber},
-                     {"upper limit", Kind::kNumber},
-                     {"d", Kind::kFraction},
-                     {"d, lower limit", Kind::kFraction},
-                     {"d, upper limit", Kind::kFraction},
-                     {"p-value", Kind::kP},
-                     {"corrected p-value", Kind::kP}},
-                    {}};
   std::string found;
   std::size_t tested = 0;
-  for (const auto& [name, n, difference, d_z] : pairs) {
-    auto& row = table.rows.emplace_back(table.columns.size());
-    row[0] = text_cell(name);
-    row[1] = count_cell(n);
-    if (!difference) continue;
-    const double p = corrected[tested++];
-    row[2] = difference->difference;
-    row[3] = difference->low;
-    row[4] = difference->high;
-    row[5] = d_z->estimate;
-    row[6] = d_z->low;
-    row[7] = d_z->high;
-    row[8] = difference->test.p;
-    row[9] = p;
-    if (p < options.alpha)
-      found += fmt::format("{}{} {} ({})", found.empty() ? "" : ", ", name,
-                           formatted(difference->difference, Kind::kNumber), p_text(p));
+  for (auto& pair : family.comparisons) {
+    if (!pair.p) continue;
+    pair.corrected_p = corrected[tested++];
+    if (*pair.corrected_p < options.alpha)
+      found += fmt::format("{}{} {} ({})", found.empty() ? "" : ", ", pair.name,
+                           formatted(*pair.estimate, Kind::kNumber), p_text(*pair.corrected_p));
   }
   finding.sentence = fmt::format(
       "Every strategy taught the same {} of simulated people, so strategies are compared within groups: {}.",
@@ -207,7 +201,12 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
       found.empty() ? "no difference between two strategies was found" : "these differ: " + found);
   if (tested > 0)
     add_method(finding, {fmt::format("paired t tests with Holm correction for {}", number_and_noun(tested, "pair"))});
-  finding.tables.push_back(std::move(table));
+  auto columns = paired_columns("pair");
+  columns.push_back(show(&ComparisonResult::p, "p-value", Kind::kP));
+  columns.push_back(show(&ComparisonResult::corrected_p, "corrected p-value", Kind::kP));
+  finding.tables.push_back(shown("Differences within groups of the same people (paired t tests, Holm correction)",
+                                 family.comparisons, columns));
+  finding.comparisons.push_back(std::move(family));
   add_blocked(blocks, options.alpha, finding);
   return finding;
 }
@@ -253,26 +252,9 @@ void add_same_people(const std::vector<double>& together, const std::vector<doub
                      const AnalysisOptions& options, Finding& finding) {
   const double confidence = 1.0 - options.alpha;
   const auto test = paired_t_test(together, alone, confidence);
-  ResultTable table{"The same people, taught together and alone (paired t test)",
-                    {{"comparison", Kind::kText},
-                     {"n", Kind::kCount},
-                     {"difference", Kind::kNumber},
-                     {"lower limit", Kind::kNumber},
-                     {"upper limit", Kind::kNumber},
-                     {"d", Kind::kFraction},
-                     {"d, lower limit", Kind::kFraction},
-                     {"d, upper limit", Kind::kFraction},
-                     {"t", Kind::kNumber},
-                     {"p-value", Kind::kP}},
-                    {}};
-  auto& row = table.rows.emplace_back(table.columns.size());
-  row[0] = text_cell("together - alone");
-  row[1] = count_cell(together.size());
+  ComparisonFamily family{.kind = ComparisonFamily::Kind::kAlone};
+  family.comparisons.push_back(paired_comparison("together - alone", together.size(), test, confidence));
   if (test) {
-    const auto d = standardized_interval(test->test.statistic, test->test.df.front(),
-                                         1.0 / std::sqrt(static_cast<double>(together.size())), confidence);
-    row = {row[0], row[1], test->difference,     test->low,   test->high, d.estimate,
-           d.low,  d.high, test->test.statistic, test->test.p};
     finding.sentence += fmt::format(
         ". Within {} of the same people {} ({}).", number_and_noun(together.size(), "group"),
         test->test.p < options.alpha ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
@@ -283,36 +265,27 @@ void add_same_people(const std::vector<double>& together, const std::vector<doub
     finding.sentence += ".";
     finding.warnings.push_back("no paired test of the same people: " + test.reason());
   }
-  finding.tables.push_back(std::move(table));
+
+  auto columns = paired_columns("comparison");
+  columns.push_back(show(&ComparisonResult::t, "t"));
+  columns.push_back(show(&ComparisonResult::p, "p-value", Kind::kP));
+  finding.tables.push_back(
+      shown("The same people, taught together and alone (paired t test)", family.comparisons, columns));
+  finding.comparisons.push_back(std::move(family));
 }
 
 void add_other_people(const std::vector<double>& group, const std::vector<double>& alone,
                       const AnalysisOptions& options, Finding& finding) {
   const auto test = welch_t_test(group, alone, 1.0 - options.alpha);
-  ResultTable table{"Group strategies and the baseline (Welch's t test)",
-                    {{"comparison", Kind::kText},
-                     {"difference", Kind::kNumber},
-                     {"lower limit", Kind::kNumber},
-                     {"upper limit", Kind::kNumber},
-                     {"t", Kind::kNumber},
-                     {"df", Kind::kNumber},
-                     {"p-value", Kind::kP}},
-                    {}};
-  ResultTable effect{"Effect size (Hedges' g)",
-                     {{"comparison", Kind::kText},
-                      {"Hedges' g", Kind::kNumber},
-                      {"lower limit", Kind::kNumber},
-                      {"upper limit", Kind::kNumber}},
-                     {}};
-  auto& row = table.rows.emplace_back(table.columns.size());
-  row[0] = text_cell("together - alone");
+  ComparisonFamily family{.kind = ComparisonFamily::Kind::kAlone};
+  auto& result = family.comparisons.emplace_back(ComparisonResult{.name = "together - alone"});
   if (test) {
-    row[1] = test->difference;
-    row[2] = test->low;
-    row[3] = test->high;
-    row[4] = test->test.statistic;
-    row[5] = test->test.df.front();
-    row[6] = test->test.p;
+    result.estimate = test->difference;
+    result.low = test->low;
+    result.high = test->high;
+    result.t = test->test.statistic;
+    result.df = test->test.df.front();
+    result.p = test->test.p;
     finding.sentence += fmt::format(
         "; {} ({}).",
         test->test.p < options.alpha ? "the difference is statistically significant" : "no difference was found",
@@ -322,20 +295,29 @@ void add_other_people(const std::vector<double>& group, const std::vector<double
     finding.warnings.push_back("no Welch's t test: " + test.reason());
     finding.sentence += ".";
   }
-  finding.tables.push_back(std::move(table));
-  if (const auto size = hedges_g(group, alone)) {
-    auto& sizes = effect.rows.emplace_back(effect.columns.size());
-    sizes[0] = text_cell("together - alone");
-    sizes[1] = *size;
-    const auto interval = test ? hedges_interval(*test, *size, 1.0 - options.alpha) : std::nullopt;
-    if (interval) {
-      sizes[2] = interval->low;
-      sizes[3] = interval->high;
-    }
+
+  const auto size = hedges_g(group, alone);
+  const auto interval = test && size ? hedges_interval(*test, *size, 1.0 - options.alpha) : std::nullopt;
+  result.d = known(size);
+  if (interval) {
+    result.d_low = interval->low;
+    result.d_high = interval->high;
+  }
+  finding.tables.push_back(shown<ComparisonResult>(
+      "Group strategies and the baseline (Welch's t test)", family.comparisons,
+      {show(&ComparisonResult::name, "comparison", Kind::kText), show(&ComparisonResult::estimate, "difference"),
+       show(&ComparisonResult::low, "lower limit"), show(&ComparisonResult::high, "upper limit"),
+       show(&ComparisonResult::t, "t"), show(&ComparisonResult::df, "df"),
+       show(&ComparisonResult::p, "p-value", Kind::kP)}));
+  if (size) {
     add_method(finding, {interval ? "Hedges' g with an interval from the non-central t distribution" : "Hedges' g",
                          "hedges1981"});
-    finding.tables.push_back(std::move(effect));
+    finding.tables.push_back(shown<ComparisonResult>(
+        "Effect size (Hedges' g)", family.comparisons,
+        {show(&ComparisonResult::name, "comparison", Kind::kText), show(&ComparisonResult::d, "Hedges' g"),
+         show(&ComparisonResult::d_low, "lower limit"), show(&ComparisonResult::d_high, "upper limit")}));
   }
+  finding.comparisons.push_back(std::move(family));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "model_means.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
+#include "shown.hpp"
 
 namespace kith {
 
@@ -35,16 +36,7 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
                   .title = hypotheses.size() == 1 ? "Primary hypothesis" : "Primary hypotheses",
                   .question = hypotheses.size() == 1 ? "Is there the difference that the study was planned to show?"
                                                      : "Are there the differences that the study was planned to show?"};
-  ResultTable table{"Planned contrasts that are the hypotheses of the study" + how,
-                    {{"contrast", ResultKind::kText},
-                     {"difference"},
-                     {"lower limit"},
-                     {"upper limit"},
-                     {"t"},
-                     {"df"},
-                     {"p-value", ResultKind::kP},
-                     {"corrected p-value", ResultKind::kP}},
-                    {}};
+  ComparisonFamily family{.kind = ComparisonFamily::Kind::kPrimary};
   std::vector<double> p_values;
   for (const auto& one : hypotheses) {
     const auto outcomes = outcomes_of(teams);
@@ -54,8 +46,7 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
     const auto formula = formula_text(model);
     if (finding.model.find(formula) == std::string::npos)
       finding.model += (finding.model.empty() ? "" : "; ") + formula;
-    auto& row = table.rows.emplace_back(table.columns.size());
-    row[0] = text_cell(one.response + ": " + one.name);
+    auto& result = family.comparisons.emplace_back(ComparisonResult{.name = one.response + ": " + one.name});
     const auto fit = effects_of(model, options.alpha);
     if (!fit) {
       finding.warnings.push_back(fmt::format("{}: {} cannot be tested: {}", one.response, one.name, fit.reason()));
@@ -64,43 +55,49 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
     if (!model.groups.empty())
       add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
     const auto estimate = contrast_estimate(*fit, one, 1.0 - options.alpha);
-    row[1] = cell_of(estimate.estimate);
+    result.estimate = known(estimate.estimate);
     if (!estimate.inference) {
       finding.warnings.push_back(
           fmt::format("{}: {} cannot be tested: {}", one.response, one.name, estimate.inference.reason()));
       continue;
     }
     const auto& inference = *estimate.inference;
-    row[2] = inference.low;
-    row[3] = inference.high;
-    row[4] = inference.statistic;
-    if (std::isfinite(inference.df)) row[5] = inference.df;
-    row[6] = inference.p;
+    result.low = inference.low;
+    result.high = inference.high;
+    result.t = inference.statistic;
+    if (std::isfinite(inference.df)) result.df = inference.df;
+    result.p = inference.p;
     p_values.push_back(inference.p);
   }
+  constexpr auto kNumber = ResultKind::kNumber;
   const auto corrected = adjust(p_values, Correction::kHolm);
   std::string found;
-  std::size_t next = 0, shown = 0;
-  for (auto& row : table.rows) {
-    const auto& name = std::get<std::string>(row[0]);
-    if (std::holds_alternative<std::monostate>(row[6])) {
-      found += fmt::format(" {}: cannot be tested.", name);
+  std::size_t next = 0, shown_to_differ = 0;
+  for (auto& one : family.comparisons) {
+    if (!one.p) {
+      found += fmt::format(" {}: cannot be tested.", one.name);
       continue;
     }
     const double p = corrected[next++];
-    row[7] = p;
-    shown += p < options.alpha ? 1 : 0;
-    found += fmt::format(" {}: {} [{}, {}], {}{}: {}.", name, formatted(row[1], ResultKind::kNumber),
-                         formatted(row[2], ResultKind::kNumber), formatted(row[3], ResultKind::kNumber),
-                         is_family ? "corrected " : "", p_text(p),
-                         p < options.alpha ? "there is a difference" : "no difference was found");
+    one.corrected_p = p;
+    shown_to_differ += p < options.alpha ? 1 : 0;
+    found += fmt::format(" {}: {} [{}, {}], {}{}: {}.", one.name, formatted(*one.estimate, kNumber),
+                         formatted(*one.low, kNumber), formatted(*one.high, kNumber), is_family ? "corrected " : "",
+                         p_text(p), p < options.alpha ? "there is a difference" : "no difference was found");
   }
   finding.sentence =
-      fmt::format("{} of {} planned as {} of the study ({} teams) {} found{}.{}", shown,
+      fmt::format("{} of {} planned as {} of the study ({} teams) {} found{}.{}", shown_to_differ,
                   number_and_noun(hypotheses.size(), "difference"), is_family ? "hypotheses" : "the hypothesis",
-                  rows.size(), shown == 1 ? "was" : "were", how, found);
+                  rows.size(), shown_to_differ == 1 ? "was" : "were", how, found);
   add_method(finding, {"planned contrasts of estimated marginal means" + how});
-  finding.tables.push_back(std::move(table));
+  finding.tables.push_back(shown<ComparisonResult>(
+      "Planned contrasts that are the hypotheses of the study" + how, family.comparisons,
+      {show(&ComparisonResult::name, "contrast", ResultKind::kText), show(&ComparisonResult::estimate, "difference"),
+       show(&ComparisonResult::low, "lower limit"), show(&ComparisonResult::high, "upper limit"),
+       show(&ComparisonResult::t, "t"), show(&ComparisonResult::df, "df"),
+       show(&ComparisonResult::p, "p-value", ResultKind::kP),
+       show(&ComparisonResult::corrected_p, "corrected p-value", ResultKind::kP)}));
+  finding.comparisons.push_back(std::move(family));
   return finding;
 }
 

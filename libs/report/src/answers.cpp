@@ -22,59 +22,30 @@ const Finding* finding_of(const FirstScreen& screen, const std::string& id) {
   return found == all.end() ? nullptr : &*found;
 }
 
-// A row of a table of results by the names of its columns.
-class ResultRow {
- public:
-  ResultRow(const ResultTable& table, const std::vector<TableCell>& cells) : table_{table}, cells_{cells} {}
-
-  [[nodiscard]] std::string label() const {
-    const auto* const text = std::get_if<std::string>(&cells_.front());
-    return text == nullptr ? std::string{} : *text;
-  }
-  [[nodiscard]] std::optional<double> number(std::string_view field) const {
-    const auto fields = field_names(table_);
-    for (std::size_t c = 0; c < fields.size(); ++c) {
-      if (fields[c] == field) return value(c);
-    }
-    return std::nullopt;
-  }
-  // The last one is corrected for the others, if any is.
-  [[nodiscard]] std::optional<double> p() const {
-    std::optional<double> last;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (table_.columns[c].kind == ResultKind::kP && value(c)) last = value(c);
-    }
-    return last;
-  }
-
- private:
-  [[nodiscard]] std::optional<double> value(std::size_t column) const {
-    const auto* const real = std::get_if<double>(&cells_[column]);
-    return real == nullptr ? std::nullopt : std::optional{*real};
-  }
-
-  const ResultTable& table_;
-  const std::vector<TableCell>& cells_;
-};
-
-std::vector<ResultRow> rows_of(const ResultTable& table) {
-  std::vector<ResultRow> rows;
-  for (const auto& cells : table.rows) rows.emplace_back(table, cells);
-  return rows;
-}
-
-const ResultTable* table_of(const Finding& finding, const std::string& caption) {
-  const auto& all = finding.tables;
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.caption.find(caption) == 0; });
+// The first comparisons of a finding that are of this kind, at all levels of other factors together.
+const ComparisonFamily* comparisons_of(const Finding& finding, ComparisonFamily::Kind kind,
+                                       const std::string& factor = "") {
+  const auto& all = finding.comparisons;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) {
+    return one.kind == kind && one.factor == factor && one.by.empty() &&
+           one.scale == ComparisonFamily::Scale::kDifference;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 
-// The p-value of a term in the first table of a finding.
+std::optional<double> p_of(const ComparisonResult& one) { return one.corrected_p ? one.corrected_p : one.p; }
+
+void set_difference(const ComparisonResult& one, Answer& answer) {
+  answer.estimate = one.estimate;
+  answer.low = one.low;
+  answer.high = one.high;
+}
+
+// The p-value of a term in the tests that a finding rests on.
 std::optional<double> p_of_term(const Finding& finding, const std::string& term) {
-  if (finding.tables.empty()) return std::nullopt;
-  for (const auto& row : rows_of(finding.tables.front())) {
-    if (row.label() == term) return row.p();
+  if (finding.tests.empty()) return std::nullopt;
+  for (const auto& test : finding.tests.front().tests) {
+    if (test.subject == term) return test.p;
   }
   return std::nullopt;
 }
@@ -109,20 +80,20 @@ struct Extremes {
 };
 
 Extremes extremes_of(const Finding& finding, const std::string& factor, int digits) {
-  const auto* table = table_of(finding, "Estimated marginal means of " + factor);
-  if (table == nullptr) return {};
+  const auto& all = finding.means;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.factor == factor; });
+  if (found == all.end()) return {};
   std::string least_name, most_name;
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const auto& row : rows_of(*table)) {
-    const auto value = row.number("mean");
-    if (!value) continue;
-    if (*value < least) {
-      least = *value;
-      least_name = row.label();
+  for (const auto& one : found->means) {
+    if (!one.mean) continue;
+    if (*one.mean < least) {
+      least = *one.mean;
+      least_name = one.level;
     }
-    if (*value > most) {
-      most = *value;
-      most_name = row.label();
+    if (*one.mean > most) {
+      most = *one.mean;
+      most_name = one.level;
     }
   }
   if (!(least <= most)) return {};
@@ -160,11 +131,10 @@ Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
   answer.means = two_means(screen, outcome);
   if (const auto* finding = finding_of(screen, outcome.id + "-baseline"); finding != nullptr) {
     answer.finding = finding->id;
-    for (const auto& row : rows_of(finding->tables.front())) {
-      answer.estimate = row.number("difference");
-      answer.low = row.number("lower_limit");
-      answer.high = row.number("upper_limit");
-      answer.p = row.p();
+    const auto* family = comparisons_of(*finding, ComparisonFamily::Kind::kAlone);
+    if (family != nullptr) {
+      set_difference(family->comparisons.front(), answer);
+      answer.p = p_of(family->comparisons.front());
     }
   } else if (const auto test = together_against_alone(screen, outcome)) {
     answer.estimate = test->difference;
@@ -193,27 +163,21 @@ std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& out
   const auto extremes = extremes_of(*finding, factor, outcome.digits);
   answer.means = extremes.means;
   answer.answer = is_shown(answer) ? extremes.answer : "no difference found";
-  const auto* pairs = table_of(*finding, "Pairs of " + factor);
+  const auto* pairs = comparisons_of(*finding, ComparisonFamily::Kind::kPairs, factor);
   if (pairs == nullptr) return answer;
+
   double largest = -1.0, bound = 0.0;
-  for (const auto& row : rows_of(*pairs)) {
-    const auto ratio = row.number("ratio");
-    const auto estimate = ratio ? ratio : row.number("difference");
-    const auto low = row.number("lower_limit"), high = row.number("upper_limit");
-    if (!estimate || !low || !high || (ratio && *low <= 0.0)) continue;
-    answer.is_ratio = ratio.has_value();
-    const auto size = [&](double value) { return std::abs(ratio ? std::log(value) : value); };
-    bound = std::max({bound, size(*low), size(*high)});
-    if (size(*estimate) <= largest) continue;
-    largest = size(*estimate);
-    answer.compared = row.label();
-    answer.estimate = estimate;
-    answer.low = low;
-    answer.high = high;
+  for (const auto& pair : pairs->comparisons) {
+    if (!pair.estimate || !pair.low || !pair.high) continue;
+    bound = std::max({bound, std::abs(*pair.low), std::abs(*pair.high)});
+    if (std::abs(*pair.estimate) <= largest) continue;
+    largest = std::abs(*pair.estimate);
+    answer.compared = pair.name;
+    set_difference(pair, answer);
   }
   if (is_shown(answer) || largest < 0.0) return answer;
   answer.estimate = answer.low = answer.high = std::nullopt;
-  answer.bound = answer.is_ratio ? std::exp(bound) : bound;
+  answer.bound = bound;
   answer.compared.clear();
   return answer;
 }
@@ -221,13 +185,12 @@ std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& out
 std::vector<Answer> planned(const FirstScreen& screen) {
   std::vector<Answer> list;
   const auto* finding = finding_of(screen, "primary");
-  if (finding == nullptr) return list;
-  for (const auto& row : rows_of(finding->tables.front())) {
-    Answer answer{finding->title, row.label(), row.label().find("periods") == 0 ? 1 : 2, finding->id};
-    answer.estimate = row.number("difference");
-    answer.low = row.number("lower_limit");
-    answer.high = row.number("upper_limit");
-    answer.p = row.p();
+  const auto* family = finding == nullptr ? nullptr : comparisons_of(*finding, ComparisonFamily::Kind::kPrimary);
+  if (family == nullptr) return list;
+  for (const auto& one : family->comparisons) {
+    Answer answer{finding->title, one.name, one.name.find("periods") == 0 ? 1 : 2, finding->id};
+    set_difference(one, answer);
+    answer.p = p_of(one);
     answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : "no difference found";
     list.push_back(std::move(answer));
   }

@@ -18,7 +18,6 @@ struct Answer {
   std::string compared{};  // "joint - common"
   std::optional<double> estimate{}, low{}, high{};
   std::optional<double> bound{};  // any two levels differ by less
-  bool is_ratio = false;
   std::optional<double> p{};
   std::string answer{};
 };

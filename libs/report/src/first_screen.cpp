@@ -95,7 +95,6 @@ Json answers(const FirstScreen& screen) {
                     {"low", number(one.low)},
                     {"high", number(one.high)},
                     {"bound", number(one.bound)},
-                    {"ratio", one.is_ratio},
                     {"digits", one.digits},
                     {"p", number(one.p)},
                     {"answer", one.answer},

@@ -18,7 +18,7 @@ struct FirstScreen {
 // What was found, as one sentence.
 [[nodiscard]] std::string headline(const FirstScreen& screen);
 
-// [{"question", "outcome", "means", "compared", "estimate", "low", "high", "bound", "ratio", "digits", "p", "answer",
+// [{"question", "outcome", "means", "compared", "estimate", "low", "high", "bound", "digits", "p", "answer",
 // "finding"}]: the questions of the study with the size of each effect and its 95 % interval, or with what any two of
 // its levels differ by at most ("bound").
 [[nodiscard]] Json answers(const FirstScreen& screen);

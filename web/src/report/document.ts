@@ -28,7 +28,6 @@ export interface Answer {
   low: number | null;
   high: number | null;
   bound: number | null;
-  ratio?: boolean; // estimate and bound are ratios, not differences
   digits: number;
   p: number | null;
   answer: string;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,82 @@ struct Method {
   std::string source{};  ///< Its key in docs/references.bib; may be empty.
 };
 
+/// The test of one term of a model, or of one part of the data. Missing numbers cannot be estimated.
+struct TermResult {
+  std::string subject{};                ///< The term, "strategy:composition", or the part, "PPP".
+  std::size_t df = 0;                   ///< Degrees of freedom of the term.
+  std::optional<double> residual_df{};  ///< May be infinite; missing for chi-squared.
+  std::optional<double> statistic{};
+  std::optional<double> p{};
+  std::optional<double> corrected_p{};  ///< For the family, if it is corrected.
+  std::optional<double> effect{};       ///< Partial eta squared, and its interval of level 1 - 2 alpha.
+  std::optional<double> low{};
+  std::optional<double> high{};
+  std::optional<double> sum_of_squares{};
+  std::optional<double> permutation_p{};  ///< Of tests that do not assume normal residuals.
+  std::optional<double> rank_p{};
+};
+
+/// Tests that belong together: of all terms of a model, of all parts of the data.
+struct TestFamily {
+  enum class Statistic { kF, kChiSquared };
+  /// How degrees of freedom of residuals are written.
+  enum class Residuals { kWhole, kOneDecimal, kFourDigits };
+  Statistic statistic = Statistic::kF;
+  Residuals residuals = Residuals::kWhole;
+  bool are_terms = true;  ///< Whether subjects are terms of the finding's model.
+  std::vector<TermResult> tests{};
+};
+
+/// What was compared, by how much it differs, and how sure that is. Missing numbers cannot be estimated, or were not
+/// asked for.
+struct ComparisonResult {
+  std::string name{};                ///< "joint - common", or the name of a planned contrast.
+  std::string at{};                  ///< The level of ComparisonFamily::by.
+  std::size_t n = 0;                 ///< Pairs of values; 0 where they are not paired.
+  std::optional<double> estimate{};  ///< First minus second, or their ratio; and its interval of level 1 - alpha.
+  std::optional<double> low{};
+  std::optional<double> high{};
+  std::optional<double> d{};  ///< Standardised, with its interval.
+  std::optional<double> d_low{};
+  std::optional<double> d_high{};
+  std::optional<double> t{};
+  std::optional<double> df{};  ///< Missing if infinite.
+  std::optional<double> p{};   ///< Adjusted if ComparisonFamily::is_adjusted.
+  std::optional<double> corrected_p{};
+};
+
+/// Comparisons that belong together.
+struct ComparisonFamily {
+  enum class Kind {
+    kPrimary,     ///< The hypotheses of the study.
+    kPlanned,     ///< Contrasts planned beforehand, of the levels of `factor`.
+    kPairs,       ///< All pairs of levels of `factor`.
+    kSamePeople,  ///< All pairs of strategies, on the same people.
+    kAlone,       ///< Teams taught together and people taught one after the other.
+  };
+  enum class Scale { kDifference, kRatio, kOddsRatio };
+  Kind kind = Kind::kPairs;
+  Scale scale = Scale::kDifference;
+  std::string factor{};
+  std::string by{};          ///< The factor at each level of which is compared; may be empty.
+  bool is_adjusted = false;  ///< Whether p-values and intervals allow for the number of comparisons.
+  std::vector<ComparisonResult> comparisons{};
+};
+
+/// The estimated marginal mean of a level of a factor, and its interval of level 1 - alpha.
+struct MeanResult {
+  std::string level{};
+  std::optional<double> mean{};
+  std::optional<double> low{};
+  std::optional<double> high{};
+  std::size_t n = 0;
+};
+struct MeanFamily {
+  std::string factor{};
+  std::vector<MeanResult> means{};
+};
+
 /// The answer to one question about a study.
 struct Finding {
   std::string id{};  ///< "periods", "knowledge-within-composition", ...
@@ -54,8 +132,11 @@ struct Finding {
   std::string sentence{};               ///< What was tested, on what, and what it means.
   std::string results{};                ///< The tests as a results section reports them, see results_paragraph().
   std::vector<std::string> warnings{};  ///< Assumptions that do not hold, and what could not be estimated and why.
-  std::vector<ResultTable> tables{};
-  std::vector<Method> methods{};  ///< Every procedure whose results the tables hold.
+  std::vector<TestFamily> tests{};      ///< Those that it rests on first.
+  std::vector<ComparisonFamily> comparisons{};
+  std::vector<MeanFamily> means{};
+  std::vector<ResultTable> tables{};  ///< What people read; made from what is above, and never read back.
+  std::vector<Method> methods{};      ///< Every procedure whose results the tables hold.
 };
 
 /// All that was found.
