@@ -182,8 +182,8 @@ std::string text_of(const ResultTable& table, const Console& console) {
 std::string note_text(const std::string& note) { return wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n"; }
 
 std::string title_and_sentence(const Finding& finding, const Console& console) {
-  std::string text = console.bold(finding.title) + "\n";
-  if (finding.model != finding.title) text += console.dim(finding.model) + "\n";
+  std::string text = console.bold(finding.title()) + "\n";
+  if (finding.model != finding.title()) text += console.dim(finding.model) + "\n";
   return text + wrapped(finding.sentence, kTextWidth) + "\n";
 }
 

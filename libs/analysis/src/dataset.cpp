@@ -162,17 +162,30 @@ Factor Dataset::factor(std::string_view column) const {
   std::vector<std::string> values;
   values.reserve(texts.size());
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (!texts[i]) {
-      throw Error{{Diagnostic{.id = "E0903",
-                              .message = "the cell in column '" + std::string{column} + "' is missing",
-                              .file = file_,
-                              .line = lines_[i],
-                              .column = 1,
-                              .hint = "fill the cell, or leave the row out"}}};
-    }
+    if (!texts[i]) refuse_missing(column, i);
     values.push_back(*texts[i]);
   }
   return make_factor(std::string{column}, values);
+}
+
+std::vector<double> Dataset::required_numbers(std::string_view column) const {
+  const auto known = numbers(column);
+  std::vector<double> values;
+  values.reserve(known.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (!known[i]) refuse_missing(column, i);
+    values.push_back(*known[i]);
+  }
+  return values;
+}
+
+void Dataset::refuse_missing(std::string_view column, std::size_t row) const {
+  throw Error{{Diagnostic{.id = "E0903",
+                          .message = "the cell in column '" + std::string{column} + "' is missing",
+                          .file = file_,
+                          .line = lines_[row],
+                          .column = 1,
+                          .hint = "fill the cell, or leave the row out"}}};
 }
 
 ColumnKind Dataset::kind(std::string_view column) const { return kinds_[index_of(column)]; }

@@ -211,7 +211,7 @@ std::string latex_text(const Analysis& analysis, double alpha) {
   std::string text = "% Findings of kith; needs the package booktabs.\n";
   for (const auto& note : analysis.notes) text += "% " + note + "\n";
   for (const auto& finding : analysis.findings) {
-    text += fmt::format("\n\\section*{{{}}}\n{}\n", latex_escaped(finding.title), latex_escaped(finding.sentence));
+    text += fmt::format("\n\\section*{{{}}}\n{}\n", latex_escaped(finding.title()), latex_escaped(finding.sentence));
     if (const auto results = results_paragraph(finding, alpha); !results.empty())
       text += "\n" + latex_escaped(results) + "\n";
     for (const auto& warning : finding.warnings) text += "\n\\noindent Note: " + latex_escaped(warning) + ".\n";

@@ -72,7 +72,7 @@ std::string findings_json(const Analysis& analysis) {
     Json methods = Json::array();
     for (const auto& method : finding.methods) methods.push_back(method.text);
     findings.push_back({{"id", finding.id},
-                        {"title", finding.title},
+                        {"title", finding.title()},
                         {"question", finding.question},
                         {"model", finding.model},
                         {"sentence", finding.sentence},

@@ -81,7 +81,7 @@ Finding analyze_model(const ModelData& data, const AnalysisOptions& options, con
   Finding finding;
   finding.id = data.response;
   finding.model = formula_text(data);
-  finding.title = finding.model;
+  finding.topic = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   finding.sentence = sentence_of(data, result, options.alpha);
   finding.warnings = warnings_of(data, result, options.alpha);

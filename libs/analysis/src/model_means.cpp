@@ -191,7 +191,7 @@ MeanFamily means_of_levels(const std::string& factor, const MarginalMeans& means
 }
 
 ResultTable means_table(const MeanFamily& family) {
-  return shown<MeanResult>("Estimated marginal means of " + family.factor, family.means,
+  return shown<MeanResult>(kMeansCaption + family.factor, family.means,
                            {show(&MeanResult::level, family.factor, Kind::kText, family.factor),
                             show(&MeanResult::mean, "mean"), show(&MeanResult::low, "lower limit"),
                             show(&MeanResult::high, "upper limit"), show(&MeanResult::n, "n", Kind::kCount)});
@@ -328,13 +328,9 @@ class Writer {
       for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
     }
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
-    const auto how = by ? fmt::format("at each level of {}", by_name) + (is_family ? "; Tukey-Kramer" : "")
-                        : std::string{is_family               ? "Tukey-Kramer"
-                                      : is_difference(model_) ? "t test"
-                                                              : "Wald test"};
     ComparisonFamily family{
         .kind = ComparisonFamily::Kind::kPairs, .factor = factor.name, .by = by_name, .is_adjusted = is_family};
-    add_family(fmt::format("Pairs of {} ({})", factor.name, how), "pair", std::move(family), comparisons);
+    add_family(pairs_caption(factor.name, by_name, is_family, model_.link), "pair", std::move(family), comparisons);
     if (is_family && !comparisons.empty())
       add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
     EquivalenceTests equivalence{model_, options_};
@@ -352,8 +348,7 @@ class Writer {
                             .factor = model_.design.factors[f].name,
                             .by = by_name,
                             .is_adjusted = is_family};
-    add_family(fmt::format("Planned contrasts of {}{}{}", family.factor,
-                           by ? " at each level of " + by_name : std::string{}, how),
+    add_family(planned_caption(family.factor, by_name, is_family ? std::optional{options_.correction} : std::nullopt),
                "contrast", family, comparisons);
     add_method(finding_, {"planned contrasts of estimated marginal means" + how});
     // Simple effects are in their table; what is said of them is corrected there.

@@ -35,7 +35,7 @@ ResultTable tests_table(const std::string& caption, const TestFamily& family) {
 }
 
 ResultTable variances_table(const MixedModel& model, const std::vector<Factor>& groups) {
-  ResultTable table{"Variances and intraclass correlations",
+  ResultTable table{kVariancesCaption,
                     {{"rows with the same", Kind::kText},
                      {"groups", Kind::kCount},
                      {"variance"},
@@ -117,7 +117,7 @@ void add_mixed_results(const ModelData& data, const MixedModel& model, const Ana
   std::vector<ResultTable> tables;
   if (!data.terms.empty()) {
     finding.tests.push_back(tests_with_effects(tests, options.alpha));
-    tables.push_back(tests_table("Tests of the fixed effects (type II, Satterthwaite)", finding.tests.back()));
+    tables.push_back(tests_table(kMixedCaption, finding.tests.back()));
     add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
     add_method(finding, eta_squared_method(options.alpha));
   }
@@ -148,7 +148,7 @@ void add_mixed_results(const ModelData& data, const MixedModel& model, const Ana
 
 Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options) {
   Finding finding{.id = data.response, .model = formula_text(data)};
-  finding.title = finding.model;
+  finding.topic = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   MixedModelOptions fit;
   fit.confidence = 1.0 - options.alpha;

@@ -52,7 +52,7 @@ std::optional<ResultTable> shares_table(const ModelData& data, const Factor& rat
 
 Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options) {
   Finding finding{.id = data.response, .model = formula_text(data) + " (ordinal)"};
-  finding.title = finding.model;
+  finding.topic = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   finding.sentence =
       fmt::format("Proportional odds model of {} ({} {}).", data.response, data.values.size(), data.observations);
@@ -70,7 +70,7 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
       auto family = tests_of(model->term_tests, TestFamily::Residuals::kWhole);
       family.statistic = TestFamily::Statistic::kChiSquared;
       finding.tables.push_back(
-          shown<TermResult>("Likelihood-ratio tests (proportional odds model, type II)", family.tests,
+          shown<TermResult>(kOrdinalCaption, family.tests,
                             {show(&TermResult::subject, "term", Kind::kText), show(&TermResult::df, "df", Kind::kCount),
                              show(&TermResult::statistic, "chi-squared"), show(&TermResult::p, "p-value", Kind::kP)}));
       finding.tests.push_back(std::move(family));

@@ -64,9 +64,7 @@ ResultTable robust_table(const ModelData& data, const TestFamily& family) {
 }
 
 ResultTable welch_table(const ModelData& data) {
-  ResultTable table{"Test that does not assume equal variances (Welch)",
-                    {{"term", Kind::kText}, {"F", Kind::kNumber}, {"p-value", Kind::kP}},
-                    {}};
+  ResultTable table{kWelchCaption, {{"term", Kind::kText}, {"F", Kind::kNumber}, {"p-value", Kind::kP}}, {}};
   const auto test = welch_anova(data.values, data.factors.front());
   table.rows.push_back(
       {text_cell(data.factors.front().name), cell_of(test, &TestResult::statistic), cell_of(test, &TestResult::p)});
@@ -117,7 +115,7 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
   std::vector<ResultTable> tables;
   if (data.factors.empty()) return;
   finding.tests.push_back(type_two_tests(result));
-  tables.push_back(anova_table("Analysis of variance (type II)", finding.tests.back(), result.table, true));
+  tables.push_back(anova_table(kAnovaCaption, finding.tests.back(), result.table, true));
   tables.push_back(robust_table(data, finding.tests.back()));
   if (!result.table.balanced && data.factors.size() > 1) {
     const auto other = anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeIII);

@@ -60,7 +60,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
   std::vector<PlannedAnalysis> plan;
   const auto add = [&](const std::optional<Finding>& finding, const std::vector<PlannedContrast>& contrasts) {
     if (finding)
-      plan.push_back({finding->id, finding->title, finding->question, finding->model, finding->methods, contrasts});
+      plan.push_back({finding->id, finding->title(), finding->question, finding->model, finding->methods, contrasts});
   };
   const auto responses = outcomes_of(teams);
   if (!rows.empty()) {

@@ -11,6 +11,7 @@
 #include "model_means.hpp"
 #include "prepared_model.hpp"
 #include "r_names.hpp"
+#include "shown.hpp"
 
 namespace kith {
 namespace {
@@ -89,6 +90,9 @@ class Script {
 
  private:
   void line(const std::string& text = "") { text_ += text + "\n"; }
+  void keep(const std::string& caption, const std::string& indent = "") {
+    line(fmt::format("{}keep({},", indent, quoted(caption)));
+  }
   [[nodiscard]] const std::string& name_of(const std::string& column) const { return names_[column]; }
   [[nodiscard]] const std::string& response() const { return name_of(model_.response); }
   [[nodiscard]] std::string right_side() const {
@@ -158,14 +162,14 @@ class Script {
     if (model_.terms.empty()) return;
     line("tests <- car::Anova(model, type = 2)");
     line("terms <- head(rownames(tests), -1)");
-    line("keep(\"Analysis of variance (type II)\",");
+    keep(kAnovaCaption);
     line("     data.frame(term = " + labelled("terms") +
          ", df = tests[terms, \"Df\"], sum_of_squares = tests[terms, \"Sum Sq\"],");
     line("                f = tests[terms, \"F value\"], p_value = tests[terms, \"Pr(>F)\"]))");
     if (is_single()) {
       const auto formula = fmt::format("{} ~ {}", response(), name_of(model_.factors.front().name));
       line(fmt::format("welch <- oneway.test({}, data = data)", formula));
-      line("keep(\"Test that does not assume equal variances (Welch)\",");
+      keep(kWelchCaption);
       line(fmt::format("     data.frame(term = {}, f = unname(welch$statistic), p_value = welch$p.value))",
                        quoted(model_.factors.front().name)));
       line(fmt::format("kruskal.test({}, data = data)", formula));
@@ -182,7 +186,7 @@ class Script {
     line("print(summary(model))");
     if (model_.terms.empty()) return;
     line("tests <- as.data.frame(car::Anova(model, type = 2))");
-    line("keep(\"Likelihood-ratio tests (proportional odds model, type II)\",");
+    keep(kOrdinalCaption);
     line("     data.frame(term = " + labelled("rownames(tests)") +
          ", df = tests[[\"Df\"]], chi_squared = tests[[\"LR Chisq\"]],");
     line("                p_value = tests[[\"Pr(>Chisq)\"]]))");
@@ -194,8 +198,7 @@ class Script {
       line(fmt::format(
           "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
           quoted(is_family ? "tukey" : "none"), level()));
-      line(fmt::format("keep({},",
-                       quoted(fmt::format("Pairs of {} ({})", factor.name, is_family ? "Tukey-Kramer" : "Wald test"))));
+      keep(pairs_caption(factor.name, "", is_family, Link::kLogit));
       line("     data.frame(pair = pairs$contrast, odds_ratio = exp(pairs$estimate),");
       line("                lower_limit = exp(pairs$asymp.LCL), upper_limit = exp(pairs$asymp.UCL),");
       line(fmt::format("                {} = pairs$p.value))", is_family ? "adjusted_p_value" : "p_value"));
@@ -217,14 +220,14 @@ class Script {
     line("emm_options(lmer.df = \"satterthwaite\", lmerTest.limit = nrow(data), pbkrtest.limit = 0)");
     if (!model_.terms.empty()) {
       line("tests <- anova(model, type = 2)");
-      line("keep(\"Tests of the fixed effects (type II, Satterthwaite)\",");
+      keep(kMixedCaption);
       line("     data.frame(term = " + labelled("rownames(tests)") +
            ", df = tests[[\"NumDF\"]], f = tests[[\"F value\"]],");
       line("                p_value = tests[[\"Pr(>F)\"]]))");
     }
     line("variances <- as.data.frame(VarCorr(model))");
     line("groups <- variances$grp != \"Residual\"");
-    line("keep(\"Variances and intraclass correlations\",");
+    keep(kVariancesCaption);
     line("     data.frame(rows_with_the_same = " + labelled("variances$grp[groups]") +
          ", variance = variances$vcov[groups],");
     line("                intraclass_correlation = (variances$vcov / sum(variances$vcov))[groups]))");
@@ -269,7 +272,7 @@ class Script {
     line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(name_of(factor.name)), level()));
     if (model_.factors.size() > 1 || !model_.groups.empty()) {
       line("shown <- as.data.frame(means)");
-      line(fmt::format("keep({},", quoted("Estimated marginal means of " + factor.name)));
+      keep(kMeansCaption + factor.name);
       line(fmt::format(
           "     setNames(data.frame(as.character(shown[[1]]), of(shown, \"emmean\"), of(shown, \"lower.CL\"), "
           "of(shown, \"upper.CL\")),"));
@@ -287,8 +290,7 @@ class Script {
     line(fmt::format(
         "{}pairs <- as.data.frame(summary(pairs(means{}, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
         indent, has_gaps ? "[known]" : "", quoted(is_family ? "tukey" : "none"), level()));
-    line(fmt::format("{}keep({},", indent,
-                     quoted(fmt::format("Pairs of {} ({})", factor.name, is_family ? "Tukey-Kramer" : "t test"))));
+    keep(pairs_caption(factor.name, "", is_family, Link::kIdentity), indent);
     line(indent + "     data.frame(pair = pairs$contrast, difference = pairs$estimate, lower_limit = pairs$lower.CL,");
     line(indent + "                upper_limit = pairs$upper.CL, d = pairs$estimate / residual_sd,");
     line(fmt::format("{}                {} = pairs$p.value))", indent, is_family ? "adjusted_p_value" : "p_value"));
@@ -305,8 +307,7 @@ class Script {
     line(fmt::format(
         "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
         quoted(is_family ? "tukey" : "none"), level()));
-    line(fmt::format("keep({},", quoted(fmt::format("Pairs of {} (at each level of {}{})", factor.name, by,
-                                                    is_family ? "; Tukey-Kramer" : ""))));
+    keep(pairs_caption(factor.name, by, is_family, Link::kIdentity));
     line(fmt::format(
         "     setNames(data.frame(as.character(pairs[[{}]]), pairs$contrast, pairs$estimate, pairs$lower.CL,",
         quoted(name_of(by))));
@@ -347,10 +348,7 @@ class Script {
     line(fmt::format(
         "planned <- as.data.frame(summary(contrast(means, list({})), adjust = {}, infer = TRUE, level = {}))", list,
         quoted(how), level()));
-    line(fmt::format(
-        "keep({},", quoted(fmt::format(
-                        "Planned contrasts of {}{}", factor.name,
-                        is_family ? fmt::format(" ({} correction)", to_string(options_.correction)) : std::string{}))));
+    keep(planned_caption(factor.name, "", is_family ? std::optional{options_.correction} : std::nullopt));
     line("     data.frame(contrast = planned$contrast, difference = planned$estimate,");
     line("                lower_limit = of(planned, \"lower.CL\"), upper_limit = of(planned, \"upper.CL\"),");
     line(fmt::format("                {} = of(planned, \"p.value\")))", is_family ? "adjusted_p_value" : "p_value"));

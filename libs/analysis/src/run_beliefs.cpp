@@ -140,7 +140,8 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
   const auto fit = effects_of(model, options.alpha);
   const auto words = outcome_words(response);
   Finding finding{.id = response + "-beliefs",
-                  .title = fmt::format("Team beliefs against individual beliefs: {}", words.label),
+                  .topic = "Team beliefs against individual beliefs",
+                  .response = std::string{words.label},
                   .question = fmt::format("Do demonstrations chosen for the team's belief ({}) lead to {} than those "
                                           "chosen for one member's belief ({})?",
                                           with_and(found->team), words.better, with_and(found->individual)),
@@ -180,7 +181,7 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
   if (!found) return std::nullopt;
   const auto label = outcome_words(response).label;
   Finding finding{.id = response + "-variation",
-                  .title = fmt::format("Variation of {} under team and individual beliefs", label),
+                  .topic = fmt::format("Variation of {} under team and individual beliefs", label),
                   .question = response == "periods"
                                   ? "Does the number of periods vary less between teams if demonstrations are chosen "
                                     "for the team's belief?"

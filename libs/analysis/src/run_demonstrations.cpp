@@ -87,7 +87,8 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
   if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
   auto finding = analyze_model(model, options, RandomStream{options.seed}.split("area_sr"));
   finding.id = "demonstrations";
-  finding.title = "Manipulation check: how much the demonstrations convey";
+  finding.topic = "Manipulation check";
+  finding.response = "how much the demonstrations convey";
   finding.question = "Do the demonstrations that the strategies choose convey different amounts?";
   finding.sentence = "The smaller the area, the fewer reward weights fit what was shown. " + finding.sentence;
   if (!model.groups.empty()) add_as_published(model, options, finding);

@@ -65,9 +65,9 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   auto finding = analyze_model(model, options, stream_of(options, response));
   std::vector<std::string> names;
   for (const auto& factor : model.factors) names.push_back(factor.name);
-  finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names) + ": ";
+  finding.topic = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names);
   const auto words = outcome_words(response);
-  finding.title += words.label;
+  finding.response = words.label;
   finding.question = fmt::format("{} {} depend on how a group is taught and who is in it?",
                                  words.is_plural ? "Do" : "Does", words.label);
   if (!model.groups.empty()) add_as_published(model, options, finding);
@@ -84,7 +84,8 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
   const auto label = outcome_words(response).label;
   const auto correction = is_corrected ? name + " correction" : std::string{"no correction"};
   Finding finding{.id = response + "-within-composition",
-                  .title = fmt::format("Strategy within each composition: {}", label),
+                  .topic = "Strategy within each composition",
+                  .response = std::string{label},
                   .question = fmt::format("Does the strategy affect {} within any single composition?", label),
                   .model = response + " ~ strategy, for each composition separately"};
   const auto people = shared_people(teams, rows);

@@ -173,7 +173,8 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
   if (!shared) return std::nullopt;
   const auto label = outcome_words(response).label;
   Finding finding{.id = response + "-paired",
-                  .title = fmt::format("Same people, different strategies: {}", label),
+                  .topic = "Same people, different strategies",
+                  .response = std::string{label},
                   .question = fmt::format("Do strategies differ in {} when they teach the same people?", label),
                   .model = response + " ~ strategy within people"};
   ComparisonFamily family{.kind = ComparisonFamily::Kind::kSamePeople, .factor = "strategy"};
@@ -329,7 +330,8 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
   if (group.empty() || alone.empty()) return std::nullopt;
   const auto words = outcome_words(response);
   Finding finding{.id = response + "-baseline",
-                  .title = fmt::format("Taught together or alone: {}", words.label),
+                  .topic = "Taught together or alone",
+                  .response = std::string{words.label},
                   .question = response == "periods"
                                   ? "Does teaching together change how many periods are needed?"
                                   : fmt::format("Does teaching together change final {}?", words.label),

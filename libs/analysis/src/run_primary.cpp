@@ -33,7 +33,7 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
   const std::string how =
       is_family ? fmt::format(" (Holm correction for {} hypotheses)", hypotheses.size()) : std::string{};
   Finding finding{.id = "primary",
-                  .title = hypotheses.size() == 1 ? "Primary hypothesis" : "Primary hypotheses",
+                  .topic = hypotheses.size() == 1 ? "Primary hypothesis" : "Primary hypotheses",
                   .question = hypotheses.size() == 1 ? "Is there the difference that the study was planned to show?"
                                                      : "Are there the differences that the study was planned to show?"};
   ComparisonFamily family{.kind = ComparisonFamily::Kind::kPrimary};
@@ -46,7 +46,8 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
     const auto formula = formula_text(model);
     if (finding.model.find(formula) == std::string::npos)
       finding.model += (finding.model.empty() ? "" : "; ") + formula;
-    auto& result = family.comparisons.emplace_back(ComparisonResult{.name = one.response + ": " + one.name});
+    auto& result = family.comparisons.emplace_back(
+        ComparisonResult{.name = one.response + ": " + one.name, .response = one.response});
     const auto fit = effects_of(model, options.alpha);
     if (!fit) {
       finding.warnings.push_back(fmt::format("{}: {} cannot be tested: {}", one.response, one.name, fit.reason()));

@@ -33,12 +33,7 @@ std::vector<std::string> varied_keys(const std::vector<Column>& columns) {
 }
 
 std::vector<double> required_numbers(const Dataset& data, const std::string& column) {
-  std::vector<double> values;
-  const auto numbers = data.numbers(column);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!numbers[i]) (void)data.factor(column);  // complains about the cell
-    values.push_back(*numbers[i]);
-  }
+  auto values = data.required_numbers(column);
   check_sizes(data, column);
   return values;
 }

@@ -8,6 +8,18 @@ namespace kith {
 
 using Kind = ResultKind;
 
+std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family, Link link) {
+  std::string how = link == Link::kIdentity ? "t test" : "Wald test";
+  if (is_family) how = "Tukey-Kramer";
+  if (!by.empty()) how = "at each level of " + by + (is_family ? "; " + how : "");
+  return "Pairs of " + factor + " (" + how + ")";
+}
+
+std::string planned_caption(const std::string& factor, const std::string& by, std::optional<Correction> correction) {
+  return "Planned contrasts of " + factor + (by.empty() ? "" : " at each level of " + by) +
+         (correction ? fmt::format(" ({} correction)", to_string(*correction)) : "");
+}
+
 TermResult term_result(const std::string& subject, std::size_t df, const Estimable<TestResult>& test) {
   TermResult result{.subject = subject, .df = df};
   if (!test) return result;

@@ -50,6 +50,19 @@ template <typename T>
   return value ? std::optional{*value} : std::nullopt;
 }
 
+// Captions of tables that the script for R makes as well.
+inline constexpr const char* kAnovaCaption = "Analysis of variance (type II)";
+inline constexpr const char* kWelchCaption = "Test that does not assume equal variances (Welch)";
+inline constexpr const char* kMixedCaption = "Tests of the fixed effects (type II, Satterthwaite)";
+inline constexpr const char* kVariancesCaption = "Variances and intraclass correlations";
+inline constexpr const char* kOrdinalCaption = "Likelihood-ratio tests (proportional odds model, type II)";
+inline constexpr const char* kMeansCaption = "Estimated marginal means of ";  // and the factor
+// "Pairs of strategy (Tukey-Kramer)". @param by  the factor at each level of which they are compared, or nothing.
+[[nodiscard]] std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family, Link link);
+// "Planned contrasts of strategy (holm correction)"
+[[nodiscard]] std::string planned_caption(const std::string& factor, const std::string& by,
+                                          std::optional<Correction> correction);
+
 // A test as a result; with the effect size that the analysis gives, if any.
 [[nodiscard]] TermResult term_result(const std::string& subject, std::size_t df, const Estimable<TestResult>& test);
 [[nodiscard]] TermResult with_effect(TermResult result, const Estimable<Interval>& effect);

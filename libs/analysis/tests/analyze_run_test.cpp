@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "findings.hpp"
+#include "kith/analysis/exports.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/stats/tests.hpp"
 #include "resealed.hpp"
@@ -122,6 +123,25 @@ TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {
   EXPECT_THAT(finding(independent, "periods").sentence, HasSubstr("Composition has a large effect"));
 }
 
+// Tables are for people: nothing is looked up in them.
+TEST_F(RunTest, RenamedHeadingsChangeNoParagraph) {
+  for (const auto& text : {teams(), other_people(teams())}) {
+    write("teams.csv", text);
+    std::size_t stated = 0;
+    for (auto found : analyse().findings) {
+      for (auto& table : found.tables) {
+        table.caption = "Renamed";
+        for (auto& column : table.columns) column.name = "renamed";
+      }
+      EXPECT_EQ(results_paragraph(found, quick().alpha), found.results) << found.id;
+      found.tables.clear();
+      EXPECT_EQ(results_paragraph(found, quick().alpha), found.results) << found.id;
+      stated += found.results.empty() ? 0u : 1u;
+    }
+    EXPECT_GT(stated, 5u);
+  }
+}
+
 // Exams are analysed as knowledge is, where teams.csv has them.
 TEST_F(RunTest, AnalysesTheExamAsAMeasurement) {
   std::string text =
@@ -145,7 +165,7 @@ TEST_F(RunTest, AnalysesTheExamAsAMeasurement) {
   for (const auto* id : {"exam_share_right", "exam_regret", "exam_worst_share_right", "exam_regret-paired"})
     EXPECT_TRUE(has_finding(analysis, id)) << id;
   const auto found = finding(analysis, "exam_regret");
-  EXPECT_EQ(found.title, "Effects of strategy and composition: regret in the exam");
+  EXPECT_EQ(found.title(), "Effects of strategy and composition: regret in the exam");
   EXPECT_EQ(found.question, "Does regret in the exam depend on how a group is taught and who is in it?");
   EXPECT_EQ(found.model, "exam_regret ~ strategy + composition + strategy:composition + (1|people)");
   EXPECT_LT(cell_at(table_named(found, "Tests of the fixed effects"), "strategy", "p-value"), 0.001);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/r_script.hpp"
 
@@ -48,10 +51,33 @@ TEST(ResultsParagraph, SaysWhatWasNotFoundAndNamesInteractions) {
                              HasSubstr("The interaction of a and b was not significant, F(1, 20) = ")));
 }
 
+// By hand, as above; the residual standard deviation is 1.
+TEST(Finding, HoldsItsTestsAsValues) {
+  auto options = few_draws();
+  options.contrasts = {parse_contrast("step: b - a")};
+  const auto finding = analyze_table(Dataset::parse(kThreeGroups, "t.csv"), {"y ~ g"}, options).findings.front();
+  const auto& test = finding.tests.at(0).tests.at(0);
+  EXPECT_EQ(test.subject, "g");
+  EXPECT_EQ(test.df, 2u);
+  EXPECT_EQ(test.residual_df, 6.0);
+  EXPECT_NEAR(test.statistic.value(), 27.0, 1e-9);
+  EXPECT_NEAR(test.effect.value(), 0.9, 1e-12);
+
+  const auto planned = std::find_if(finding.comparisons.begin(), finding.comparisons.end(),
+                                    [](const auto& one) { return one.kind == ComparisonFamily::Kind::kPlanned; });
+  ASSERT_NE(planned, finding.comparisons.end());
+  const auto& step = planned->comparisons.at(0);
+  EXPECT_EQ(step.name, "step");
+  EXPECT_NEAR(step.estimate.value(), 3.0, 1e-9);
+  EXPECT_NEAR(step.d.value(), 3.0, 1e-9);
+  EXPECT_NEAR(step.t.value(), 3.0 / std::sqrt(2.0 / 3.0), 1e-9);
+  EXPECT_EQ(step.df, 6.0);
+}
+
 TEST(Latex, EscapesWhatLatexReads) {
   Analysis analysis{"t.csv", {}};
   analysis.findings.push_back({.id = "x",
-                               .title = "a_b & 50 %",
+                               .topic = "a_b & 50 %",
                                .sentence = "p < 0.001",
                                .tables = {{"A {table}", {{"pair", ResultKind::kText}, {"p"}}, {{"a - b", 0.5}}}}});
   const auto text = latex_text(analysis, 0.05);

@@ -188,7 +188,7 @@ std::vector<Answer> planned(const FirstScreen& screen) {
   const auto* family = finding == nullptr ? nullptr : comparisons_of(*finding, ComparisonFamily::Kind::kPrimary);
   if (family == nullptr) return list;
   for (const auto& one : family->comparisons) {
-    Answer answer{finding->title, one.name, one.name.find("periods") == 0 ? 1 : 2, finding->id};
+    Answer answer{finding->topic, one.name, one.response == kPeriods.id ? kPeriods.digits : 2, finding->id};
     set_difference(one, answer);
     answer.p = p_of(one);
     answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : "no difference found";

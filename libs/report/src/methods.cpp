@@ -329,20 +329,19 @@ class Paragraph {
     for (const auto& topic : topics()) say(tested(topic));
   }
 
-  // Findings that differ in the response only ("...: periods", "...: knowledge").
+  // Findings that differ in the response only.
   struct Topic {
     std::string title;
-    std::vector<std::pair<std::string, const Finding*>> findings;  // by response, "" where the title names none
+    std::vector<std::pair<std::string, const Finding*>> findings;  // by response; may be empty
   };
   [[nodiscard]] std::vector<Topic> topics() const {
     std::vector<Topic> topics;
     for (const auto& finding : analysis_.findings) {
       if (finding.methods.empty()) continue;
-      const auto colon = finding.title.rfind(": ");
-      auto title = finding.title.substr(0, colon);
+      auto title = finding.topic;
       title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
       if (topics.empty() || topics.back().title != title) topics.push_back({title, {}});
-      topics.back().findings.emplace_back(colon == std::string::npos ? "" : finding.title.substr(colon + 2), &finding);
+      topics.back().findings.emplace_back(finding.response, &finding);
     }
     return topics;
   }

@@ -44,6 +44,8 @@ class Dataset {
   /// The same as numbers; true and false are 1 and 0.
   /// @throws kith::Error (kInvalidInput, E0902) that names file, row and column of every text.
   [[nodiscard]] std::vector<std::optional<double>> numbers(std::string_view column) const;
+  /// The same of a column in which every row has a value. @throws also (E0903) for a missing cell.
+  [[nodiscard]] std::vector<double> required_numbers(std::string_view column) const;
   /// Whether every cell that is not missing is a finite number, and there is one.
   [[nodiscard]] bool is_numeric(std::string_view column) const;
   /// The column as a factor, levels in the order of appearance. @throws also (E0903) for a missing cell.
@@ -64,6 +66,7 @@ class Dataset {
  private:
   [[nodiscard]] std::size_t index_of(std::string_view column) const;
   [[nodiscard]] Dataset select(const std::vector<std::size_t>& rows) const;
+  [[noreturn]] void refuse_missing(std::string_view column, std::size_t row) const;
   [[noreturn]] void refuse_filters(std::span<const RowFilter> filters) const;
 
   std::string file_;

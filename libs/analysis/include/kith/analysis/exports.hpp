@@ -8,9 +8,9 @@
 namespace kith {
 
 /// What a results section reports of a finding, in the manner of the American Psychological Association: the model and
-/// the method, the F tests of its first table that has any, planned contrasts and t tests. "y ~ g (one-way analysis of
-/// variance). The effect of g was significant, F(3, 224) = 10.82, p < .001, partial eta squared = .127, 90 % CI [.059,
-/// .187]." Empty if the finding has none of these.
+/// the method, the first of its families of tests that has any, planned contrasts and t tests. Tables play no part. "y
+/// ~ g (one-way analysis of variance). The effect of g was significant, F(3, 224) = 10.82, p < .001, partial eta
+/// squared = .127, 90 % CI [.059, .187]." Empty if the finding has none of these.
 /// @param alpha  of the analysis; intervals of partial eta squared have level 1 - 2 alpha.
 [[nodiscard]] std::string results_paragraph(const Finding& finding, double alpha);
 

@@ -78,6 +78,7 @@ struct TestFamily {
 /// asked for.
 struct ComparisonResult {
   std::string name{};                ///< "joint - common", or the name of a planned contrast.
+  std::string response{};            ///< A column; empty: that of the finding.
   std::string at{};                  ///< The level of ComparisonFamily::by.
   std::size_t n = 0;                 ///< Pairs of values; 0 where they are not paired.
   std::optional<double> estimate{};  ///< First minus second, or their ratio; and its interval of level 1 - alpha.
@@ -125,8 +126,9 @@ struct MeanFamily {
 
 /// The answer to one question about a study.
 struct Finding {
-  std::string id{};  ///< "periods", "knowledge-within-composition", ...
-  std::string title{};
+  std::string id{};        ///< "periods", "knowledge-within-composition", ...
+  std::string topic{};     ///< "Effects of strategy and composition"; findings about several responses share it.
+  std::string response{};  ///< In words; empty if the topic says it.
   std::string question{};
   std::string model{};                  ///< The formula, or what is compared.
   std::string sentence{};               ///< What was tested, on what, and what it means.
@@ -137,6 +139,9 @@ struct Finding {
   std::vector<MeanFamily> means{};
   std::vector<ResultTable> tables{};  ///< What people read; made from what is above, and never read back.
   std::vector<Method> methods{};      ///< Every procedure whose results the tables hold.
+
+  /// "Effects of strategy and composition: periods"
+  [[nodiscard]] std::string title() const { return response.empty() ? topic : topic + ": " + response; }
 };
 
 /// All that was found.
