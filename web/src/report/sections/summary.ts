@@ -14,16 +14,11 @@ function roundedUp(value: number, digits: number): string {
   return formatFixed(Math.ceil(value * scale - 1e-9) / scale, digits);
 }
 
-function effect({ estimate, low, high, bound, ratio, digits }: Answer): string {
-  const size = ratio ? 2 : digits;
-  if (bound !== null) {
-    return ratio
-      ? `any two differ by less than a factor of ${roundedUp(bound, 2)}`
-      : `any two differ by less than ${roundedUp(bound, digits)}`;
-  }
+function effect({ estimate, low, high, bound, digits }: Answer): string {
+  if (bound !== null) return `any two differ by less than ${roundedUp(bound, digits)}`;
   if (estimate === null) return '\u2013';
-  const value = `${ratio ? '\u00d7\u00a0' : ''}${formatFixed(estimate, size)}`;
-  return low === null || high === null ? value : `${value} [${formatFixed(low, size)}, ${formatFixed(high, size)}]`;
+  const value = formatFixed(estimate, digits);
+  return low === null || high === null ? value : `${value} [${formatFixed(low, digits)}, ${formatFixed(high, digits)}]`;
 }
 
 function answersTable(answers: Answer[]): HTMLElement {
