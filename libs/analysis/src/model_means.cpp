@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "equivalence_tests.hpp"
 #include "kith/core/error.hpp"
-#include "kith/stats/equivalence.hpp"
 #include "kith/stats/multiple.hpp"
 #include "model_means.hpp"
 #include "shown.hpp"
@@ -16,8 +16,6 @@ using Kind = ResultKind;
 
 constexpr std::size_t kMostLevelsInPairs = 12;  // every one is compared with every other
 constexpr std::size_t kMostSimpleEffects = 12;  // levels of a factor at each of which others are compared
-
-bool is_difference(const FixedEffects& model) { return model.link == Link::kIdentity; }
 
 using Scale = ComparisonFamily::Scale;
 
@@ -45,12 +43,6 @@ const char* comparison_name(Scale scale) {
   }
   return "";
 }
-
-// A comparison on the scale of the model.
-struct Comparison {
-  LinearEstimate estimate;
-  std::string group;  // the level of the `by` factor; may be empty
-};
 
 ResultTable comparison_table(const std::string& caption, const std::string& first, const ComparisonFamily& family,
                              bool is_corrected) {
@@ -88,7 +80,7 @@ ComparisonResult result_of(const Comparison& comparison, const FixedEffects& mod
     result.estimate = without_rounding(shown->estimate, shown->low, shown->high);
     result.low = shown->low;
     result.high = shown->high;
-  } else if (is_difference(model)) {
+  } else if (model.link == Link::kIdentity) {
     result.estimate = known(estimate.estimate);
   }
   if (!estimate.inference) return result;
@@ -97,7 +89,7 @@ ComparisonResult result_of(const Comparison& comparison, const FixedEffects& mod
   result.t = inference.statistic;
   if (std::isfinite(inference.df)) result.df = inference.df;
   result.p = inference.p;
-  if (is_difference(model) && estimate.estimate && model.residual_sd) {
+  if (model.link == Link::kIdentity && estimate.estimate && model.residual_sd) {
     const double sd = *model.residual_sd;
     result.d = without_rounding(*estimate.estimate, inference.low, inference.high) / sd;
     result.d_low = inference.low / sd;
@@ -125,55 +117,6 @@ Adjustment adjustment_of(Correction correction) {
   }
   return Adjustment::kBonferroni;
 }
-
-// Differences against the smallest one that matters.
-class EquivalenceTests {
- public:
-  EquivalenceTests(const FixedEffects& model, const AnalysisOptions& options) : options_{options} {
-    if (!options.smallest_effect || !is_difference(model)) return;
-    if (options.smallest_effect->standardized && !model.residual_sd) return;
-    margin_ = options.smallest_effect->size * (options.smallest_effect->standardized ? *model.residual_sd : 1.0);
-  }
-  [[nodiscard]] explicit operator bool() const { return margin_ > 0.0; }
-  void add(const std::vector<Comparison>& comparisons) {
-    for (const auto& one : comparisons) {
-      const auto test = test_equivalence(one.estimate, {-margin_, margin_}, options_.alpha);
-      if (!test) continue;
-      const bool is_equivalent = test->p < options_.alpha;
-      (is_equivalent ? equivalent_ : others_) += 1;
-      rows_.push_back({text_cell(one.group.empty() ? one.estimate.name : one.group + ": " + one.estimate.name),
-                       test->estimate, test->narrow.low, test->narrow.high, test->p,
-                       text_cell(std::string{to_string(test->verdict)})});
-    }
-  }
-  void finish(const std::string& what, Finding& finding, std::vector<ResultTable>& tables) {
-    if (rows_.empty()) return;
-    const auto level = fmt::format("{:.3g} %", 100.0 * (1.0 - 2.0 * options_.alpha));
-    const auto margin = formatted(margin_, Kind::kNumber);
-    tables.push_back({fmt::format("Equivalence within {} ({}; two one-sided tests{}, {} intervals)", margin, what,
-                                  rows_.size() > 1 ? ", uncorrected" : "", level),
-                      {{"comparison", Kind::kText},
-                       {"difference"},
-                       {"lower limit"},
-                       {"upper limit"},
-                       {"p-value", Kind::kP},
-                       {"verdict", Kind::kText}},
-                      std::move(rows_)});
-    const auto n = equivalent_ + others_;
-    const auto which = n == 1             ? std::string{"The difference was "} + (equivalent_ == 1 ? "" : "not ")
-                       : others_ == 0     ? fmt::format("All {} differences were ", n)
-                       : equivalent_ == 0 ? fmt::format("None of the {} differences was ", n)
-                                          : fmt::format("{} of {} differences were ", equivalent_, n);
-    finding.sentence += fmt::format(" {}shown to be smaller than {} ({}).", which, margin, what);
-    add_method(finding, {fmt::format("two one-sided tests of equivalence within {}", margin)});
-  }
-
- private:
-  const AnalysisOptions& options_;
-  double margin_ = 0.0;
-  std::vector<std::vector<TableCell>> rows_;
-  std::size_t equivalent_ = 0, others_ = 0;
-};
 
 MeanFamily means_of_levels(const std::string& factor, const MarginalMeans& means, Link link) {
   MeanFamily family{factor, {}};
@@ -230,20 +173,6 @@ std::vector<double> weights_of(const ModelFactor& factor, const PlannedContrast&
     weights[static_cast<std::size_t>(found - factor.levels.begin())] = weight;
   }
   return weights;
-}
-
-// The planned contrasts of one factor, at each level of `by` if there is one: a family per level.
-std::vector<Comparison> planned(const FixedEffects& model, std::size_t factor, std::optional<std::size_t> by,
-                                const std::vector<MeanContrast>& contrasts, const AnalysisOptions& options) {
-  const std::vector<std::size_t> over{factor};
-  const auto at = by ? std::vector{*by} : std::vector<std::size_t>{};
-  const auto adjustment = contrasts.size() > 1 && !by ? adjustment_of(options.correction) : Adjustment::kNone;
-  std::vector<Comparison> comparisons;
-  for (const auto& group : marginal_means(model, over, at, 1.0 - options.alpha).groups) {
-    for (auto& estimate : estimate_contrasts(model, group, contrasts, adjustment, 1.0 - options.alpha))
-      comparisons.push_back({std::move(estimate), group.name});
-  }
-  return comparisons;
 }
 
 class Writer {
@@ -307,6 +236,18 @@ class Writer {
     return marginal_means(model_, over, at, 1.0 - options_.alpha);
   }
 
+  // The planned contrasts of a factor, at each level of `by` if there is one: a family per level.
+  [[nodiscard]] std::vector<Comparison> planned(std::size_t factor, std::optional<std::size_t> by,
+                                                const std::vector<MeanContrast>& contrasts) const {
+    const auto adjustment = contrasts.size() > 1 && !by ? adjustment_of(options_.correction) : Adjustment::kNone;
+    std::vector<Comparison> comparisons;
+    for (const auto& group : means_of(factor, by).groups) {
+      for (auto& estimate : estimate_contrasts(model_, group, contrasts, adjustment, 1.0 - options_.alpha))
+        comparisons.push_back({std::move(estimate), group.name});
+    }
+    return comparisons;
+  }
+
   void add_pairs_of(std::size_t f, std::optional<std::size_t> by) {
     const auto& factor = model_.design.factors[f];
     if (factor.levels.size() < 2 || factor.levels.size() > kMostLevelsInPairs) return;
@@ -340,7 +281,7 @@ class Writer {
   }
 
   void add_planned_of(std::size_t f, std::optional<std::size_t> by, const std::vector<MeanContrast>& contrasts) {
-    const auto comparisons = planned(model_, f, by, contrasts, options_);
+    const auto comparisons = planned(f, by, contrasts);
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
     const bool is_family = !by && contrasts.size() > 1 && options_.correction != Correction::kNone;
     const auto how = is_family ? fmt::format(" ({} correction)", to_string(options_.correction)) : std::string{};
