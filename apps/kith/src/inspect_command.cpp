@@ -240,17 +240,16 @@ class Inspection {
   }
 
   void coverage() {
-    if (!atlas_->find_tables()) {
-      heading("What people could expect the robot to do");
+    heading("What people could expect the robot to do");
+    const auto* tables = atlas_->find_tables();
+    if (tables == nullptr) {
       out_ += "  computed on demand; not precomputed for this domain\n";
       return;
     }
-    const auto& coverage = atlas_->tables().coverage();
-    heading("What people could expect the robot to do");
+    const auto& coverage = tables->coverage();
     out_ += fmt::format("  {} paths that are optimal for some weights: {:.2f} per start state, at most {}\n",
                         coverage.vertices, coverage.mean, coverage.max);
-    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n",
-                        atlas_->tables().cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", tables->cells().size());
   }
 
   void demos() {
@@ -293,9 +292,10 @@ class Inspection {
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }
-    if (!atlas_->find_tables()) return expected_by_a_sample(demo);
+    const auto* tables = atlas_->find_tables();
+    if (tables == nullptr) return expected_by_a_sample(demo);
     const auto& robot = atlas_->feature_counts(demo);
-    const auto paths = atlas_->tables().coverage_set(demo);
+    const auto paths = tables->coverage_set(demo);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
       if (paths[i] == robot) {
         out_ += "  " + counts_text(domain_, paths[i]) + ": the robot's own path\n";
@@ -305,8 +305,7 @@ class Inspection {
               in_words(domain_, HalfSpace{robot - paths[i]}) + "\n";
     }
     note_cut(paths.size());
-    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n",
-                        atlas_->tables().cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", tables->cells().size());
   }
 
   void expected_by_a_sample(DemoIndex demo) {
