@@ -3,8 +3,8 @@
 
 #include "assignment.hpp"
 #include "errors.hpp"
-#include "kith/planning/calibration.hpp"
 #include "kith/present/json.hpp"
+#include "kith/study_design/calibration.hpp"
 #include "own_kinds.hpp"
 #include "waiting.hpp"
 

@@ -136,11 +136,11 @@ minimize() {  # TARGET
 groups='
 TOML             libs/toml/src/
 tables           libs/table/src/csv_re
-domain files     libs/domains/src/(domain_file|read_|condition|exact_vector|reward|wording)
-explicit models  libs/domains/src/(csv_model|gym_model|json_|prism_model|model_text|check_model|explicit_family)
+domain files     libs/(maps/src/read_|domains/src/(domain_file|read_|condition|exact_vector|reward|wording))
+explicit models  libs/(models/src/|domains/src/(check_model|explicit_family))
 study files      libs/study/src/(study_file|read_study_spec|read_prior)
 tables of runs   libs/study/src/read_tables
-targets files    libs/planning/src/(targets_file|effect|quantity)
+targets files    libs/study_design/src/(targets_file|effect|quantity)
 logs of people   libs/fit/src/(import_trials|import_run|lee2021|open_table|vectors)
 record codec     libs/(runs/src/team_codec|files/src/bytes)
 journal          libs/(runs/src/journal|files/src/sqlite)

@@ -9,7 +9,7 @@ export LC_ALL=C
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/libs"
-cp -r libs/live libs/hosting "$work/libs"
+cp -r libs/live libs/store "$work/libs"
 
 # The sources that a compiler complains about when all those of a layer are compiled as one file.
 named_by_compiler() {  # LAYER
@@ -35,7 +35,7 @@ compare() {  # WHAT ROW FILES
 
 # The changed headers come first. The compiler knows /usr/include, and is misled if it is told.
 compile=("$1" -fsyntax-only -Werror=switch)
-for layer in live hosting; do compile+=(-I"$work/libs/$layer/src" -I"$work/libs/$layer/include"); done
+for layer in live store; do compile+=(-I"$work/libs/$layer/src" -I"$work/libs/$layer/include"); done
 for option in "${@:2}"; do [[ $option == -I/usr/include ]] || compile+=("$option"); done
 
 header=$work/libs/live/src/room_state.hpp
@@ -60,5 +60,5 @@ for like in Continued Resumed; do
   cp "$work/header" "$header"
   grep -q "struct Added$like" "$header" || { echo "happening::$like is not in room_event.hpp"; exit 1; }
 done
-compare 'events' 'event of a room' "$(named_by_compiler live; named_by_compiler hosting)"
+compare 'events' 'event of a room' "$(named_by_compiler live; named_by_compiler store)"
 exit $failed

@@ -139,7 +139,7 @@ check_rows() {
   words=$(files '*.hpp' | grep '^libs/live/include/kith/live/room_event.hpp$' | xargs -r cat | tr '\n' ' ' |
     grep -oE 'kKind\{ *"[a-z]+", *"[a-z]*"' | grep -oE '"[a-z]+"' | tr -d '"' | sort -u | paste -sd'|')
   {
-    files '*.cpp' '*.hpp' | grep -E '^libs/(live|hosting)/src/' | search -nE "type [!=]= \"(${words:-none})\""
+    files '*.cpp' '*.hpp' | grep -E '^libs/(live|store|service)/src/' | search -nE "type [!=]= \"(${words:-none})\""
     files '*.cpp' '*.hpp' | grep '^libs/live/src/' | search -nE '^ *default:'
   } | none
 }

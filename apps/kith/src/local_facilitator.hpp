@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kith/hosting/live_service.hpp"
 #include "kith/present/json.hpp"
+#include "kith/service/live_service.hpp"
 
 namespace kith::cli {
 

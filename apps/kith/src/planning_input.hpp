@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
-#include "kith/planning/targets.hpp"
 #include "kith/study/study_file.hpp"
+#include "kith/study_design/targets.hpp"
 
 namespace kith::cli {
 

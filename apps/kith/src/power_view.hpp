@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "console.hpp"
-#include "kith/planning/power.hpp"
 #include "kith/present/json.hpp"
+#include "kith/study_design/power.hpp"
 
 // How `kith power` shows its results.
 namespace kith::cli {

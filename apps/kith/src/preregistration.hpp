@@ -4,9 +4,9 @@
 #include <string>
 
 #include "kith/domains/domain.hpp"
-#include "kith/planning/power.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study_spec.hpp"
+#include "kith/study_design/power.hpp"
 
 namespace kith::cli {
 

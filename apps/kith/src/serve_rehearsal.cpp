@@ -13,9 +13,9 @@
 #include "exit_codes.hpp"
 #include "interrupt.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/hosting/event_file.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/present/json.hpp"
+#include "kith/store/event_file.hpp"
 
 namespace kith::cli {
 namespace {

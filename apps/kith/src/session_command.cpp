@@ -16,11 +16,11 @@
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
 #include "kith/files/folder_lock.hpp"
-#include "kith/hosting/event_file.hpp"
-#include "kith/hosting/lesson_log.hpp"
-#include "kith/hosting/session_export.hpp"
-#include "kith/hosting/session_review.hpp"
-#include "kith/hosting/session_study.hpp"
+#include "kith/service/lesson_log.hpp"
+#include "kith/store/event_file.hpp"
+#include "kith/store/session_export.hpp"
+#include "kith/store/session_review.hpp"
+#include "kith/store/session_study.hpp"
 
 namespace kith::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "kith/files/folder_lock.hpp"
-#include "kith/hosting/event_file.hpp"
+#include "kith/store/event_file.hpp"
 #include "run_kith.hpp"
 #include "small_session.hpp"
 

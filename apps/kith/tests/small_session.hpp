@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "kith/hosting/event_file.hpp"
-#include "kith/hosting/session_study.hpp"
 #include "kith/live/room.hpp"
+#include "kith/store/event_file.hpp"
+#include "kith/store/session_study.hpp"
 
 namespace kith::testing {
 

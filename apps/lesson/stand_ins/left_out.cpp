@@ -8,8 +8,8 @@
 #include "kith/core/parallel_loop.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/files/base64.hpp"
-#include "model_formats.hpp"
-#include "occupancy_grid.hpp"
+#include "kith/maps/occupancy_grid.hpp"
+#include "kith/models/model_formats.hpp"
 
 namespace kith {
 

@@ -12,7 +12,7 @@ namespace {
 // Plans every MDP under the robot's weights and looks at the result.
 class OptimumChecker {
  public:
-  OptimumChecker(const World& world, const Dynamics& dynamics, const Reward& reward, TomlReport& report)
+  OptimumChecker(const FamilyMap& world, const Dynamics& dynamics, const Reward& reward, TomlReport& report)
       : world_{world}, dynamics_{dynamics}, reward_{reward}, report_{report}, layout_{world} {}
 
   void check(std::size_t number, const DomainMember& member) {
@@ -107,7 +107,7 @@ class OptimumChecker {
     return member.mdp.outcomes(choice).front().next.value();
   }
 
-  const World& world_;
+  const FamilyMap& world_;
   const Dynamics& dynamics_;
   const Reward& reward_;
   TomlReport& report_;
@@ -146,7 +146,7 @@ void warn_of_ties(std::size_t num_ties, const TomlPlace& weights_place, TomlRepo
                  "its choices between equally good paths contradict each other");
 }
 
-void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,
+void check_optimum(const FamilyMap& world, const Dynamics& dynamics, const Reward& reward,
                    const std::vector<DomainMember>& members, TomlReport& report) {
   if (dynamics.discount < 1.0) return;  // every discounted optimum is finite
   OptimumChecker checker{world, dynamics, reward, report};

@@ -13,7 +13,7 @@ std::optional<std::size_t> position(const std::vector<std::string>& names, const
   return it == names.end() ? std::nullopt : std::optional{static_cast<std::size_t>(it - names.begin())};
 }
 
-std::vector<std::string> item_names(const World& world) {
+std::vector<std::string> item_names(const FamilyMap& world) {
   std::vector<std::string> names;
   for (const Item& item : world.items) names.push_back(item.name);
   return names;
@@ -88,7 +88,7 @@ class Parser {
   // The atom, or nothing after reporting why there is none.
   std::optional<Atom> resolve(const std::string& kind, std::size_t begin, bool named, const std::string& name,
                               std::size_t name_at) {
-    const World& world = vocabulary_.world;
+    const FamilyMap& world = vocabulary_.world;
     if (!named && kind == "action") return Atom{Atom::Kind::kAnyAction, 0};
     if (!named && kind == "exit") return action("exit", begin);
     if (!named && kind == "goal") return Atom{Atom::Kind::kAnyGoal, 0};
@@ -124,7 +124,7 @@ class Parser {
   }
 
   std::optional<Atom> place(const std::string& name, std::size_t at, Atom::Kind terrain, Atom::Kind station) {
-    const World& world = vocabulary_.world;
+    const FamilyMap& world = vocabulary_.world;
     if (is_absent(name)) return never();
     if (const auto i = position(world.terrain_names, name)) return Atom{terrain, *i};
     if (const auto i = position(world.station_names, name)) return Atom{station, *i};
@@ -227,7 +227,7 @@ const std::vector<std::string>& all_action_names() {
 
 namespace {
 
-std::optional<FeatureThing> thing_of(const Atom& atom, const World& world) {
+std::optional<FeatureThing> thing_of(const Atom& atom, const FamilyMap& world) {
   switch (atom.kind) {
     case Atom::Kind::kLeaveTerrain:
       return FeatureThing{"leave", "terrain", world.terrain_names[atom.index]};
@@ -255,7 +255,8 @@ std::optional<FeatureThing> thing_of(const Atom& atom, const World& world) {
 
 }  // namespace
 
-std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms, const World& world) {
+std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms,
+                                    const FamilyMap& world) {
   std::vector<std::vector<FeatureThing>> stack;
   for (const Condition::Step& step : condition.steps) {
     if (step.op == Condition::Op::kAtom) {

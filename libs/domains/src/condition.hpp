@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "world.hpp"
+#include "kith/maps/family_map.hpp"
 
 namespace kith::detail {
 
@@ -55,11 +55,11 @@ class Condition {
 
 // What has to be there for the condition to hold, in its order.
 [[nodiscard]] std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms,
-                                                  const World& world);
+                                                  const FamilyMap& world);
 
 // What conditions may name.
 struct Vocabulary {
-  const World& world;
+  const FamilyMap& world;
   const std::vector<Action>& actions;
 };
 

@@ -168,7 +168,7 @@ std::optional<MdpIndex> Domain::find_world(std::string_view number_or_name) cons
 
 std::vector<OptionalGroup> Domain::optional_groups() const {
   if (!data_->has_map()) return {};
-  const detail::World& world = data_->grid().world;
+  const detail::FamilyMap& world = data_->grid().world;
   std::vector<OptionalGroup> groups;
   for (const detail::CellGroup& group : world.groups) {
     OptionalGroup& added = groups.emplace_back();
@@ -194,7 +194,7 @@ int dissimilarity_of(const GridFamily& grid, DemoId a, DemoId b) {
   const std::int32_t* digits_b = grid.digits.data() + row_b * grid.digits_per_state;
   int moved = 0;
   for (std::size_t i = 0; i < common; ++i) moved += std::abs(digits_a[i] - digits_b[i]);
-  const detail::World& world = grid.world;
+  const detail::FamilyMap& world = grid.world;
   const std::uint64_t toggled = (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & grid.non_station_groups;
   const int stations = grid.num_stations[row_a] - grid.num_stations[row_b];
   return 2 * moved + std::popcount(toggled) + std::abs(stations);

@@ -7,8 +7,8 @@
 
 #include "explicit_family.hpp"
 #include "kith/domains/domain.hpp"
+#include "kith/maps/family_map.hpp"
 #include "state_layout.hpp"
-#include "world.hpp"
 
 namespace kith {
 
@@ -24,7 +24,7 @@ struct DomainMember {
 
 // Gridworlds on one map.
 struct GridFamily {
-  detail::World world;
+  detail::FamilyMap world;
   detail::StateLayout layout;
   std::vector<std::string> item_names;
   std::vector<DomainMember> members;  // per MDP

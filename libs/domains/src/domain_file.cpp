@@ -41,7 +41,7 @@ void check_id(TomlReader& file, const std::string& id) {
 }
 
 // Something must end an episode, else there is nothing to plan for.
-void check_has_goal(const detail::World& world, const detail::Dynamics& dynamics, TomlReport& report) {
+void check_has_goal(const detail::FamilyMap& world, const detail::Dynamics& dynamics, TomlReport& report) {
   const auto& actions = dynamics.actions;
   if (world.some_goal || std::find(actions.begin(), actions.end(), detail::Action::kExit) != actions.end()) return;
   report.error("E0210", world.map_place, "the map has no goal",
@@ -76,7 +76,7 @@ Domain::Data data_from(const detail::Dynamics& dynamics, detail::Reward reward) 
   return data;
 }
 
-GridFamily grid_from(detail::World world, std::vector<DomainMember> members) {
+GridFamily grid_from(detail::FamilyMap world, std::vector<DomainMember> members) {
   GridFamily grid;
   for (const detail::Item& item : world.items) grid.item_names.push_back(item.name);
   grid.layout = detail::StateLayout{world};
@@ -89,7 +89,7 @@ GridFamily grid_from(detail::World world, std::vector<DomainMember> members) {
 std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limits, detail::NamedFiles& files,
                                       detail::ModelReport& model_report) {
   TomlReport& report = file.report();
-  detail::World world = detail::read_world(file, files, model_report);
+  detail::FamilyMap world = detail::read_world(file, files, model_report);
   const detail::Dynamics dynamics = detail::read_dynamics(file, world);
   detail::Reward reward = detail::read_reward(file, dynamics);
   file.finish();

@@ -12,7 +12,7 @@ constexpr std::array kMoves{Action::kUp, Action::kDown, Action::kLeft, Action::k
 // Reads the parts of a file that say what the robot can do and what counts.
 class DynamicsReader {
  public:
-  DynamicsReader(TomlReader& file, const World& world) : file_{file}, report_{file.report()}, world_{world} {}
+  DynamicsReader(TomlReader& file, const FamilyMap& world) : file_{file}, report_{file.report()}, world_{world} {}
 
   Dynamics read() {
     read_mdp();
@@ -141,7 +141,7 @@ class DynamicsReader {
 
   TomlReader& file_;
   TomlReport& report_;
-  const World& world_;
+  const FamilyMap& world_;
   Dynamics dynamics_;
 };
 
@@ -175,7 +175,7 @@ std::vector<std::string> Dynamics::feature_names() const {
   return names;
 }
 
-Dynamics read_dynamics(TomlReader& file, const World& world) { return DynamicsReader{file, world}.read(); }
+Dynamics read_dynamics(TomlReader& file, const FamilyMap& world) { return DynamicsReader{file, world}.read(); }
 
 FeatureTable::FeatureTable(const Dynamics& dynamics) : dynamics_{dynamics} {
   const auto counts_raster = [](const Feature& feature) { return feature.times.has_value(); };

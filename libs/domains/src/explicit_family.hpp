@@ -7,8 +7,8 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/models/raw_model.hpp"
 #include "model_drawing.hpp"
-#include "raw_model.hpp"
 
 namespace kith {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 namespace kith::detail {
-Explorer::Explorer(const World& world, const Dynamics& dynamics, FeatureTable& features)
+Explorer::Explorer(const FamilyMap& world, const Dynamics& dynamics, FeatureTable& features)
     : world_{world}, dynamics_{dynamics}, features_{features}, layout_{world} {
   for (std::size_t a = 0; a < all_action_names().size(); ++a) {
     action_atoms_.push_back(mask_of({Atom::Kind::kAnyAction, 0}) | mask_of({Atom::Kind::kAction, a}));

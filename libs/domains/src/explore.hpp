@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "dynamics.hpp"
+#include "kith/maps/family_map.hpp"
 #include "state_layout.hpp"
 #include "state_numbers.hpp"
-#include "world.hpp"
 
 namespace kith::detail {
 
@@ -29,7 +29,7 @@ struct Exploration {
 // Finds the states of the MDPs of a family, one after the other.
 class Explorer {
  public:
-  Explorer(const World& world, const Dynamics& dynamics, FeatureTable& features);
+  Explorer(const FamilyMap& world, const Dynamics& dynamics, FeatureTable& features);
 
   [[nodiscard]] const StateLayout& layout() const { return layout_; }
 
@@ -43,8 +43,8 @@ class Explorer {
     bool wall = false;
     bool goal = false;
     bool has_station = false;
-    std::int32_t station = -1;      // index into World::stations, if it is there
-    std::int32_t destination = -1;  // index into World::items: the one that belongs here
+    std::int32_t station = -1;      // index into FamilyMap::stations, if it is there
+    std::int32_t destination = -1;  // index into FamilyMap::items: the one that belongs here
     std::uint32_t counts = 0;       // of rasters that features count, see FeatureTable
   };
   struct Step {
@@ -69,7 +69,7 @@ class Explorer {
   [[nodiscard]] Step drop_off(PackedState s) const;
   std::uint32_t number_of(PackedState s, Exploration& found);
 
-  const World& world_;
+  const FamilyMap& world_;
   const Dynamics& dynamics_;
   FeatureTable& features_;
   StateLayout layout_;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "explore.hpp"
-#include "thinning.hpp"
+#include "kith/maps/thinning.hpp"
 
 namespace kith::detail {
 namespace {
@@ -43,7 +43,7 @@ std::vector<bool> find_live_states(const Exploration& found) {
 
 class FamilyBuilder {
  public:
-  FamilyBuilder(const World& world, const Dynamics& dynamics, const DomainLimits& limits, TomlReport& report)
+  FamilyBuilder(const FamilyMap& world, const Dynamics& dynamics, const DomainLimits& limits, TomlReport& report)
       : world_{world},
         limits_{limits},
         report_{report},
@@ -191,7 +191,7 @@ class FamilyBuilder {
     }
   }
 
-  const World& world_;
+  const FamilyMap& world_;
   const DomainLimits& limits_;
   TomlReport& report_;
   const Dynamics& dynamics_;
@@ -209,7 +209,7 @@ class FamilyBuilder {
 
 }  // namespace
 
-std::vector<DomainMember> build_family(const World& world, const Dynamics& dynamics, const DomainLimits& limits,
+std::vector<DomainMember> build_family(const FamilyMap& world, const Dynamics& dynamics, const DomainLimits& limits,
                                        TomlReport& report) {
   return FamilyBuilder{world, dynamics, limits, report}.build();
 }

@@ -9,8 +9,8 @@
 namespace kith {
 namespace {
 
+using detail::FamilyMap;
 using detail::SymbolContent;
-using detail::World;
 
 const DomainMember& member_of(const GridFamily& family, MdpIndex m, const char* function) {
   if (m.value() < family.members.size()) return family.members[m.value()];
@@ -19,7 +19,7 @@ const DomainMember& member_of(const GridFamily& family, MdpIndex m, const char* 
 
 // The symbol that shows exactly `content`: the cell's own if it does, else the
 // first of the legend that does; without one the cell's own, or a blank for floor.
-char glyph_for(const World& world, std::size_t cell, const SymbolContent& content) {
+char glyph_for(const FamilyMap& world, std::size_t cell, const SymbolContent& content) {
   const detail::Symbol& own = world.symbols[world.symbol_of[cell]];
   if (own.content == content) return own.glyph;
   for (const detail::Symbol& symbol : world.symbols) {
@@ -33,7 +33,7 @@ char glyph_for(const World& world, std::size_t cell, const SymbolContent& conten
 GridMap::GridMap(const GridFamily& family) noexcept : family_{&family} {}
 GridMap::GridMap(const ModelDrawing& drawing) noexcept : drawing_{&drawing} {}
 
-const World& GridMap::world() const noexcept { return drawing_ != nullptr ? drawing_->world : family_->world; }
+const FamilyMap& GridMap::world() const noexcept { return drawing_ != nullptr ? drawing_->world : family_->world; }
 
 void GridMap::check_mdp(MdpIndex m, const char* function) const {
   if (drawing_ == nullptr) {
@@ -68,7 +68,7 @@ std::size_t GridMap::legend_index(Cell cell) const {
   const auto index = world().index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::legend_index: the cell is off the map"};
   // What has a name of its own is looked up here: stations and goals.
-  const World& all = world();
+  const FamilyMap& all = world();
   std::size_t found = all.symbol_of[*index];
   for (const detail::MapThing& thing : all.things_on(*index)) {
     const auto has_name = [&](std::size_t symbol) {
@@ -109,7 +109,7 @@ GridState GridMap::drawn_state(MdpIndex m, StateIndex s) const {
     throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
   }
   const std::uint32_t* look = member.looks.data() + s.value() * drawing_->look_size();
-  const World& all = world();
+  const FamilyMap& all = world();
   GridState state;
   state.robot = all.cell_at(*look++);
   for (std::size_t i = 0; i < drawing_->things.size(); ++i) {
@@ -155,7 +155,7 @@ std::vector<std::pair<Cell, Cell>> GridMap::fences(MdpIndex m) const {
 // The rows of a picture, with what the MDP has.
 std::vector<std::string> GridMap::drawn_rows(MdpIndex m) const {
   check_mdp(m, "GridMap::draw");
-  const World& all = world();
+  const FamilyMap& all = world();
   std::vector<std::string> rows(static_cast<std::size_t>(all.height));
   for (std::size_t cell = 0; cell < all.num_cells(); ++cell) {
     rows[cell / static_cast<std::size_t>(all.width)] += glyph_for(all, cell, all.content_in(cell, m.value()));
@@ -185,7 +185,7 @@ GridState GridMap::state(MdpIndex m, StateIndex s) const {
     throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
   }
   const detail::PackedState packed = member.states[s.value()];
-  const detail::World& world = family_->world;
+  const detail::FamilyMap& world = family_->world;
   GridState state;
   state.robot = world.cell_at(family_->layout.robot(packed));
   for (std::size_t i = 0; i < member.item_present.size(); ++i) {
@@ -203,7 +203,7 @@ GridState GridMap::state(MdpIndex m, StateIndex s) const {
 std::optional<StateIndex> GridMap::find_state(MdpIndex m, const GridState& state) const {
   if (drawing_ != nullptr) return find_drawn(m, state);
   const DomainMember& member = member_of(*family_, m, "GridMap::find_state");
-  const detail::World& world = family_->world;
+  const detail::FamilyMap& world = family_->world;
   const auto robot = world.index_of(state.robot);
   const std::vector<std::size_t> items = items_in(m);
   if (!robot || state.items.size() != items.size() || state.carried.size() != items.size()) return std::nullopt;
@@ -236,7 +236,7 @@ std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) 
     return rows;
   }
 
-  const World& world = family_->world;
+  const FamilyMap& world = family_->world;
   const GridState now = s ? state(m, *s) : GridState{};
   const std::vector<std::size_t> items = items_in(m);
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));
@@ -268,7 +268,7 @@ std::vector<std::string> GridMap::draw_bare(MdpIndex m, StateIndex s) const {
     place_things(m, state(m, s), true, rows);
     return rows;
   }
-  const World& world = family_->world;
+  const FamilyMap& world = family_->world;
   const GridState now = state(m, s);
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));
   for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {

@@ -112,7 +112,7 @@ class DrawingReader {
 
   // Items are where the states say; destinations may be drawn in the rows instead.
   void check_movable() {
-    const World& world = plan_.world;
+    const FamilyMap& world = plan_.world;
     for (std::size_t i = 0; i < world.symbols.size(); ++i) {
       const Symbol& symbol = world.symbols[i];
       if (!is_movable(symbol)) continue;
@@ -152,7 +152,7 @@ class DrawingReader {
 
   void check_state(const RawState& state, const std::string& what, const DrawnThing& thing,
                    const std::int32_t* values) {
-    const World& world = plan_.world;
+    const FamilyMap& world = plan_.world;
     const std::int64_t column = values[thing.x] - plan_.origin[0];
     const std::int64_t row = values[thing.y] - plan_.origin[1];
     const std::string at = model_.variables[thing.x] + " = " + std::to_string(values[thing.x]) + ", " +

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "kith/domains/grid_map.hpp"
+#include "kith/maps/family_map.hpp"
+#include "kith/maps/named_files.hpp"
+#include "kith/models/raw_model.hpp"
 #include "kith/toml/reader.hpp"
-#include "named_files.hpp"
-#include "raw_model.hpp"
-#include "world.hpp"
 
 namespace kith {
 
@@ -27,7 +27,7 @@ struct DrawnMember {
 
 // A picture of an explicit model: a map, and where the robot and other things are on it in every state.
 struct ModelDrawing {
-  detail::World world;
+  detail::FamilyMap world;
   std::vector<std::string> things;  // that states place, apart from the robot
   std::vector<std::uint8_t> symbol_of_thing;
   std::vector<DrawnMember> members;
@@ -47,13 +47,13 @@ struct DrawnThing {
 
 // What a domain file says about the drawing of its model.
 struct DrawingPlan {
-  World world;
+  FamilyMap world;
   std::array<std::int64_t, 2> origin{1, 1};  // x and y of the top left cell
   bool has_walls = true;                     // whether lines are drawn where no action leads to the next cell
   DrawnThing robot;
   std::vector<DrawnThing> things;
   std::vector<std::string> names;     // of things
-  std::vector<std::uint8_t> symbols;  // of things, indices into World::symbols
+  std::vector<std::uint8_t> symbols;  // of things, indices into FamilyMap::symbols
   TomlPlace place;                    // of [model.drawing]
 };
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "model_formats.hpp"
+#include "kith/models/model_formats.hpp"
 
 namespace kith::detail {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "dynamics.hpp"
 #include "explicit_family.hpp"
+#include "kith/maps/named_files.hpp"
 #include "kith/toml/reader.hpp"
 #include "model_drawing.hpp"
-#include "named_files.hpp"
 
 namespace kith::detail {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "world.hpp"
+#include "kith/maps/family_map.hpp"
 
 namespace kith::detail {
 
@@ -15,7 +15,7 @@ using PackedState = std::uint64_t;
 class StateLayout {
  public:
   StateLayout() = default;
-  explicit StateLayout(const World& world)
+  explicit StateLayout(const FamilyMap& world)
       : cell_bits_{static_cast<unsigned>(std::bit_width(world.num_cells() - 1))},
         num_items_{static_cast<unsigned>(world.items.size())},
         num_stations_{static_cast<unsigned>(world.stations.size())},

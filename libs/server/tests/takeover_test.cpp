@@ -13,10 +13,10 @@
 
 #include "bot.hpp"
 #include "kith/core/error.hpp"
-#include "kith/hosting/live_service.hpp"
-#include "kith/hosting/session_review.hpp"
-#include "kith/hosting/session_study.hpp"
 #include "kith/server/server.hpp"
+#include "kith/service/live_service.hpp"
+#include "kith/store/session_review.hpp"
+#include "kith/store/session_study.hpp"
 #include "kith/study/study_file.hpp"
 #include "raw_web_socket.hpp"
 #include "scratch_folder.hpp"

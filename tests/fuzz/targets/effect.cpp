@@ -1,7 +1,7 @@
 // Effects to plan for, formulas of models and conditions on rows, as given on the command line, one a line. What is
 // read is written in a form that reads as the same.
 
-#include "kith/planning/effect.hpp"
+#include "kith/study_design/effect.hpp"
 #include <set>
 
 #include "../fuzzing.hpp"

@@ -5,7 +5,7 @@
 
 #include "../fuzzing.hpp"
 #include "../study_files.hpp"
-#include "kith/planning/targets.hpp"
+#include "kith/study_design/targets.hpp"
 
 using namespace kith;
 

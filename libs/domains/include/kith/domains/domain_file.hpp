@@ -9,21 +9,9 @@
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/domains/domain.hpp"
+#include "kith/maps/domain_files.hpp"
 
 namespace kith {
-
-/// A file that a domain file names: a part of an explicit model.
-struct DomainFile {
-  std::string name;  ///< As the domain file says it, relative to its folder.
-  std::string text;
-  friend bool operator==(const DomainFile&, const DomainFile&) = default;
-};
-
-/// Where the files are that a domain file names.
-struct DomainFiles {
-  std::filesystem::path folder{};      ///< That of the domain file; empty: the working directory.
-  std::vector<DomainFile> known = {};  ///< Files that need not be read any more.
-};
 
 /// What came of reading a domain file: a domain unless there are errors, and
 /// everything worth saying about the file, in file order.

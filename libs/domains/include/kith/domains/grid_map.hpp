@@ -5,18 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "kith/maps/cell.hpp"
 #include "kith/mdp/mdp.hpp"
 
 namespace kith {
 
 using MdpIndex = Index<struct MdpTag>;
-
-/// A cell of a map, 1-based, x to the right, y up.
-struct Cell {
-  int x = 0;
-  int y = 0;
-  friend auto operator<=>(const Cell&, const Cell&) = default;
-};
 
 /// One state of a gridworld, as people see it.
 struct GridState {
@@ -51,7 +45,7 @@ struct GridFamily;
 struct ModelDrawing;
 
 namespace detail {
-struct World;
+struct FamilyMap;
 }
 
 /// The map on which the MDPs of a domain are gridworlds: what its cells hold, what its states look like, and how it is
@@ -97,7 +91,7 @@ class GridMap {
   [[nodiscard]] std::vector<std::string> draw_bare(MdpIndex m, StateIndex s) const;
 
  private:
-  [[nodiscard]] const detail::World& world() const noexcept;
+  [[nodiscard]] const detail::FamilyMap& world() const noexcept;
   void check_mdp(MdpIndex m, const char* function) const;
   [[nodiscard]] GridState drawn_state(MdpIndex m, StateIndex s) const;
   [[nodiscard]] std::optional<StateIndex> find_drawn(MdpIndex m, const GridState& state) const;

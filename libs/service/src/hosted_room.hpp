@@ -1,0 +1,159 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/live/room.hpp"
+#include "kith/store/event_file.hpp"
+#include "strands.hpp"
+#include "teaching_pool.hpp"
+
+namespace kith {
+
+// What became of a command: events that are on the disk, or a refusal; neither if it was accepted before.
+struct CommandOutcome {
+  std::vector<RoomEvent> events;
+  std::optional<Refusal> refusal;
+};
+
+// As it is kept.
+[[nodiscard]] StoredEvent to_stored(std::int64_t room, const RoomEvent& event);
+
+// A room on the server. Decides one command at a time, has its events saved, applies them, and only then tells anybody;
+// has lessons chosen. All functions but those marked are called on the room's strand.
+class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
+ public:
+  // What a room needs of the service.
+  class Host {
+   public:
+    virtual ~Host() = default;
+    [[nodiscard]] virtual std::int64_t now_us() const = 0;
+    virtual void post(std::int64_t room, Strands::Job job) = 0;
+    virtual void save(StoreBatch batch, std::function<void(bool)> done) = 0;
+    virtual void teach(TeachingPool::Urgency urgency, TeachingPool::Job job) = 0;
+    // How many demonstrations a facilitator who watches this room wants to see besides the chosen ones.
+    [[nodiscard]] virtual std::size_t num_runners_up(std::int64_t room) const = 0;
+    // Events were saved and applied: on the strand of the room.
+    virtual void on_applied(HostedRoom& room, std::span<const RoomEvent> events) = 0;
+    // Something is wrong that people should hear of; empty: no longer.
+    virtual void on_trouble(std::int64_t room, const std::string& what) = 0;
+    // The room, a waiting list, has nothing to do at the moment: on its strand. A group may be formed.
+    virtual void on_waiting(HostedRoom& room) = 0;
+    // Somebody drops out of the room, on its strand, and somebody from the waiting list may take over. Has to be
+    // answered with fill() or depart() on that strand; until then the room stands still.
+    virtual void on_vacancy(HostedRoom& room, const Vacancy& vacancy) = 0;
+  };
+  using Done = std::function<void(const CommandOutcome& outcome)>;
+  // A command, and what is saved together with its events.
+  struct Request {
+    RoomCommand command;
+    StoreBatch with;
+  };
+
+  HostedRoom(Host& host, std::shared_ptr<const LiveStudy> study, StoredRoom stored, RoomSetup setup)
+      : host_{host}, study_{std::move(study)}, stored_{std::move(stored)}, setup_{std::move(setup)} {}
+
+  // From any thread.
+  [[nodiscard]] std::int64_t number() const noexcept { return stored_.number; }
+  [[nodiscard]] const RoomSetup& setup() const noexcept { return setup_; }
+  // From any thread: when the clock demands something, in microseconds.
+  [[nodiscard]] std::int64_t next_due_us() const noexcept { return next_due_us_.load(); }
+  // From any thread: whether somebody may find a seat; as long as nobody knows, yes.
+  [[nodiscard]] bool may_have_free_seat() const noexcept { return may_have_free_seat_.load(); }
+  // From any thread: how many sessions it has in memory, those of lessons that were chosen ahead of time included; none
+  // once teaching is over.
+  [[nodiscard]] std::size_t num_sessions() const noexcept { return num_sessions_.load(); }
+  // From any thread: whether events wait for a disk that refused them.
+  [[nodiscard]] bool is_unsaved() const noexcept { return is_unsaved_.load(); }
+
+  // A new room.
+  void begin(TeachingCache& cache);
+  // From any thread: rebuilds it from what is stored, on a thread of the teaching pool. Commands wait meanwhile.
+  void rebuild(std::vector<StoredEvent> events);
+
+  // Nothing while it is being rebuilt, or if it could not be.
+  [[nodiscard]] const Room* room() const noexcept { return room_ ? &*room_ : nullptr; }
+  // Has a command decided. `id` of the command may be empty. What is in the batch is saved together with the events
+  // that the command leads to, or not at all.
+  void ask(RoomCommand command, Done done, StoreBatch with = {});
+  // The same of a command that is made when its turn comes, from the room as it is then; nothing: it is refused.
+  void ask_when_ready(std::function<std::optional<Request>(const Room& room)> make, Done done);
+  // The departure that on_vacancy() told of, and the id of the message that asked for it, or "".
+  // @pre on_vacancy() has not been answered yet.
+  [[nodiscard]] const RoomEvent& departure() const { return saving_->events.back(); }
+  [[nodiscard]] const std::string& departure_message() const { return saving_->message; }
+  // Somebody takes the place over: these events, the departure last, are on the disk.
+  void fill(std::vector<RoomEvent> events, TeachingCache& cache);
+  // Nobody does: the departure is saved as it is.
+  void depart();
+  // The time of what happens now: never before that of the last event.
+  [[nodiscard]] std::int64_t now() const;
+  // Something may be due by the clock, or could not be saved and is to be tried again.
+  void wake();
+  // The service has stopped: drops commands that wait, unanswered. Their answers may hold this room.
+  void abandon();
+
+ private:
+  struct Asked {
+    RoomCommand command;
+    Done done;
+    StoreBatch with;
+    std::function<std::optional<Request>(const Room& room)> make{};
+  };
+  // Events on their way to the disk. `message` is the id of the message that led to the last one.
+  struct Saving {
+    std::vector<RoomEvent> events;
+    std::string message;
+    Done done;
+    std::shared_ptr<const TaughtLesson> lesson;
+    StoreBatch with{};
+    bool has_failed = false;
+  };
+
+  void finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages, const std::string& problem);
+  void advance();
+  void do_what_can_be_done();
+  void release();
+  void keep_mark(std::uint64_t mark);
+  [[nodiscard]] bool begin_next();
+  void save(Saving saving);
+  void hand_in();
+  void on_saved(bool saved, TeachingCache& cache);
+  void seek_lesson();
+  void look_ahead();
+  void start_task(TeachingPool::Urgency urgency, const TeachingTask& task);
+  void on_lesson(std::shared_ptr<const TaughtLesson> lesson);
+  [[nodiscard]] static std::uint64_t mark_of(const std::string& actor, const std::string& message);
+
+  Host& host_;
+  std::shared_ptr<const LiveStudy> study_;
+  StoredRoom stored_;
+  RoomSetup setup_;
+  std::atomic<std::int64_t> next_due_us_ = std::numeric_limits<std::int64_t>::max();
+  std::atomic<bool> is_unsaved_ = false;
+  std::atomic<std::size_t> num_sessions_ = 0;
+  std::atomic<bool> may_have_free_seat_ = true;
+
+  std::optional<Room> room_;
+  std::string broken_;                   // why it cannot go on
+  std::int64_t last_us_ = 0;             // of the last event
+  std::vector<std::uint64_t> messages_;  // whose effects are saved; sorted
+  std::deque<Asked> asked_;
+  std::optional<Saving> saving_;
+  std::uint64_t sought_ = 0;  // one more than the number of the event after which a lesson was last asked for
+  std::string wanted_;        // key of the lesson that is waited for
+  std::map<std::string, std::shared_ptr<const TaughtLesson>> lessons_;  // by key; null: somebody is at it
+  std::size_t num_ahead_ = 0;  // lessons that were begun ahead of time since the last one was taken
+  bool has_changed_ = false;   // so that other lessons are likely
+};
+
+}  // namespace kith

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/live/room.hpp"
+#include "kith/store/event_file.hpp"
+
+namespace kith {
+
+/// A room in a list.
+struct RoomSummary {
+  std::int64_t number = 0;
+  std::string id;
+  std::string strategy;
+  std::string composition;
+  std::int64_t created_us = 0;
+  std::int64_t last_us = 0;  ///< Of the last event; 0 without events.
+  std::uint64_t events = 0;
+  std::size_t joined = 0;   ///< People who took a seat.
+  std::size_t lessons = 0;  ///< Chosen.
+  std::size_t answers = 0;
+  bool has_started = false;
+  std::string ended{};  ///< Why, if it ended before its time.
+};
+
+/// The rooms of a session, in order, from their events alone: no lesson is chosen again.
+[[nodiscard]] std::vector<RoomSummary> list_rooms(EventFile& file);
+
+/// The room with this id ("r3") or code. @throws kith::Error (kInvalidInput, E1618) if there is none.
+[[nodiscard]] StoredRoom find_room(EventFile& file, const std::string& name);
+
+/// The result of replaying a room.
+struct ReplayedRoom {
+  std::int64_t number = 0;
+  std::string id;
+  std::uint64_t events = 0;
+  std::size_t lessons = 0;
+  std::string digest{};   ///< Of the room at the end; empty if it could not be replayed.
+  std::string problem{};  ///< Why not, or what differs; empty if all is as it was.
+};
+
+/// The event as rooms take it. @throws kith::Error (kMismatch, E1612) if its text is no JSON.
+[[nodiscard]] RoomEvent room_event_of(const StoredEvent& event);
+/// Its members as they are stored. @throws the same.
+[[nodiscard]] Json body_of(const StoredEvent& event);
+
+/// Computes a room again from its setup and events, and compares every lesson with what was taught then.
+/// @param on_event  is told every event after it was applied; may be empty.
+[[nodiscard]] ReplayedRoom replay_room(EventFile& file, const StoredRoom& stored,
+                                       const std::shared_ptr<const LiveStudy>& study, TeachingCache& cache,
+                                       const std::function<void(const Room&, const RoomEvent&)>& on_event = {});
+
+/// Erases what identifies people: names, free text of questions, query parameters. Everything else stays, ids too, so
+/// the session replays as before. The erasure is an event of its own.
+/// @param room  one room; otherwise all, and also the query parameters of people who found no seat. @return the number
+/// of events that were changed.
+/// @throws kith::Error kBusy E1610 if the session is being served; kIo.
+std::size_t redact(const std::filesystem::path& folder, std::optional<std::string> room, std::int64_t now_us);
+
+/// What a salvage found.
+struct SalvageReport {
+  std::size_t rooms = 0;
+  std::size_t events = 0;  ///< In the new file.
+  std::size_t links = 0;
+  std::vector<std::string> lost{};  ///< In words: which events are missing, and what had to be left out after them.
+};
+
+/// Copies every intact row of a damaged session to a new one in another folder. Of each room the events up to the first
+/// missing one are kept, since what follows cannot be understood without it.
+/// @throws kith::Error kInvalidInput E1616 (the folder holds no session), kMismatch E1619 (nothing can be recovered:
+/// the identity of the session is lost), kUsage E1620 (the new folder is not empty); kIo.
+[[nodiscard]] SalvageReport salvage_session(const std::filesystem::path& folder, const std::filesystem::path& target);
+
+}  // namespace kith
