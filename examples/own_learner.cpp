@@ -25,7 +25,7 @@ class OneOpinion final : public kith::Learner {
     if (mistakes_ > patience_) change_opinion(period);
   }
 
-  [[nodiscard]] Response answer(kith::Behaviours& behaviours, std::span<const kith::DemoIndex> tests,
+  [[nodiscard]] Response answer(kith::Behaviours& behaviours, std::span<const kith::StartIndex> tests,
                                 std::size_t) const override {
     const auto cell = behaviours.locate(opinion());
     Response response;

@@ -194,7 +194,7 @@ LoadedDomain::Loan::~Loan() {
   if (domain_->free_.size() < kMostFree) domain_->free_.push_back(std::move(cache_));
 }
 
-DemoIndex LoadedDomain::state_of(const py::handle& start) {
+StartIndex LoadedDomain::state_of(const py::handle& start) {
   const auto numbers = integers_of(start, 2, "a start (world, state)");
   if (numbers[0] < 0 || numbers[1] < 0) throw py::index_error{"a start is (world, state), both counted from 0"};
   const auto m = world_of(domain_, static_cast<std::size_t>(numbers[0]));
@@ -205,13 +205,13 @@ DemoIndex LoadedDomain::state_of(const py::handle& start) {
   return atlas()->index({m, StateIndex{s}});
 }
 
-DemoIndex LoadedDomain::demo_of(const py::handle& start) {
+StartIndex LoadedDomain::candidate_of(const py::handle& start) {
   const auto demo = state_of(start);
   if (!atlas()->is_candidate(demo)) throw py::value_error{"this domain lets nothing start in that state"};
   return demo;
 }
 
-py::tuple LoadedDomain::start_of(const Atlas& atlas, DemoIndex demo) {
+py::tuple LoadedDomain::start_of(const Atlas& atlas, StartIndex demo) {
   const auto id = atlas.id(demo);
   return py::make_tuple(id.mdp.value(), id.start.value());
 }

@@ -47,11 +47,11 @@ class LoadedDomain : public std::enable_shared_from_this<LoadedDomain> {
   }
 
   /// The start, which must exist and be a candidate.
-  [[nodiscard]] DemoIndex demo_of(const py::handle& start);
+  [[nodiscard]] StartIndex candidate_of(const py::handle& start);
   /// Any non-terminal state of a world, as a demonstration of its own.
-  [[nodiscard]] DemoIndex state_of(const py::handle& start);
+  [[nodiscard]] StartIndex state_of(const py::handle& start);
   /// (world, state)
-  [[nodiscard]] static py::tuple start_of(const Atlas& atlas, DemoIndex demo);
+  [[nodiscard]] static py::tuple start_of(const Atlas& atlas, StartIndex demo);
 
  private:
   Domain domain_;

@@ -52,7 +52,7 @@ class OwnLearner final : public Learner {
     with_object([&](const py::object& object) { object.attr("watch")(to_list(half_spaces), period); });
   }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     return with_object([&](const py::object& object) {
       const auto& atlas = behaviours.atlas();

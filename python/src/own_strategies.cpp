@@ -85,8 +85,8 @@ class View {
   }
 
   OwnUnit pick(const py::iterable& starts, const py::object& whose) {
-    std::vector<DemoIndex> demos;
-    for (const auto& start : starts) demos.push_back(demo_of(start));
+    std::vector<StartIndex> demos;
+    for (const auto& start : starts) demos.push_back(candidate_of(start));
     std::optional<ParticleBelief> belief;
     auto source = SourceBelief::of_everybody();
     if (!whose.is_none()) {
@@ -103,7 +103,7 @@ class View {
             source};
   }
 
-  [[nodiscard]] DemoIndex demo_of(const py::handle& start) const {
+  [[nodiscard]] StartIndex candidate_of(const py::handle& start) const {
     const auto& atlas = get().atlas;
     const auto id = integers_of(start, 2, "a start (world, state)");
     if (id[0] < 0 || id[1] < 0 || static_cast<std::size_t>(id[0]) >= atlas.domain().num_mdps())
@@ -119,7 +119,7 @@ class View {
     const auto& atlas = get().atlas;
     const auto& component = atlas.knowledge_components()[get().component];
     py::list starts;
-    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       if (!atlas.is_candidate(demo) || !component.uses_mdp[atlas.id(demo).mdp.value()]) continue;
       if (!atlas.one_step(demo).empty()) starts.append(LoadedDomain::start_of(atlas, demo));
     }

@@ -13,7 +13,7 @@ std::string source_name(const SourceBelief& source) {
   return source.is_member() ? "member " + std::to_string(source.member + 1) : source.rule;
 }
 
-py::list actions_of(const Atlas& atlas, DemoIndex demo) {
+py::list actions_of(const Atlas& atlas, StartIndex demo) {
   py::list actions;
   for (const auto action : atlas.trajectory(demo).actions)
     actions.append(atlas.domain().action_names()[action.value()]);
@@ -77,7 +77,7 @@ py::object to_python(const Atlas& atlas, const PastPeriod& period) {
   return record("Period")(to_python(atlas, period.lesson), answers, to_python(period.feedback));
 }
 
-Unit picked_unit(TeachingCache& cache, std::span<const HalfSpace> taught_region, std::span<const DemoIndex> demos,
+Unit picked_unit(TeachingCache& cache, std::span<const HalfSpace> taught_region, std::span<const StartIndex> demos,
                  const ParticleBelief* belief, const SelectionOptions& options, const RandomStream& random) {
   const auto& atlas = cache.atlas();
   auto taught = cache.numbers_of(taught_region);

@@ -18,7 +18,7 @@ namespace kith::python {
 /// The unit of these demonstrations, in this order.
 /// @param belief  what they convey is what they tell people who hold it; null: what the robot's paths show.
 [[nodiscard]] Unit picked_unit(TeachingCache& cache, std::span<const HalfSpace> taught_region,
-                               std::span<const DemoIndex> demos, const ParticleBelief* belief,
+                               std::span<const StartIndex> demos, const ParticleBelief* belief,
                                const SelectionOptions& options, const RandomStream& random);
 
 }  // namespace kith::python

@@ -33,7 +33,7 @@ class Use {
 
 // Lessons that the caller puts together. The demonstrations wait here during propose(); a proposal without any is made
 // by the session itself.
-thread_local std::optional<std::vector<DemoIndex>> by_hand;
+thread_local std::optional<std::vector<StartIndex>> by_hand;
 
 class ByHand final : public Strategy {
  public:
@@ -161,10 +161,10 @@ void require_same(const OwnSession& session, const People& people) {
 
 bool propose(OwnSession& self, const py::object& demonstrations, const std::shared_ptr<People>& people) {
   const auto cache = self.domain()->borrow();
-  std::optional<std::vector<DemoIndex>> chosen;
+  std::optional<std::vector<StartIndex>> chosen;
   if (!demonstrations.is_none()) {
     chosen.emplace();
-    for (const auto& start : py::iterable{demonstrations}) chosen->push_back(self.domain()->demo_of(start));
+    for (const auto& start : py::iterable{demonstrations}) chosen->push_back(self.domain()->candidate_of(start));
   }
   if (people) require_same(self, *people);
   return self.use([&](Session& session) {
@@ -217,7 +217,7 @@ py::list answers(People& self, OwnSession& session, std::size_t member) {
       const py::gil_scoped_release unlocked;
       if (begins_component(taught)) learners[member]->begin_component();
       watch_lesson(*learners[member], lesson, *cache);
-      std::vector<DemoIndex> tests;
+      std::vector<StartIndex> tests;
       for (const auto& test : lesson.tests) tests.push_back(test.demo);
       return learners[member]->answer(cache->behaviours(), tests, lesson.period);
     });

@@ -82,7 +82,7 @@ class WholeRobot {
   }
 
   // The path after the last possible action: as good as the robot's, or worse.
-  [[nodiscard]] Answer another_answer(DemoIndex demo) const {
+  [[nodiscard]] Answer another_answer(StartIndex demo) const {
     const auto id = atlas_.id(demo);
     return atlas_.deviation_counts(demo, atlas_.domain().mdp(id.mdp).choices(id.start).size() - 1);
   }

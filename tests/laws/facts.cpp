@@ -41,7 +41,7 @@ std::vector<IntegerVector> carried_over(const std::vector<HalfSpace>& all, const
 Facts facts_of(const Atlas& atlas, const Counted& counted) {
   Facts facts;
   facts.num_worlds = atlas.domain().num_mdps();
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (atlas.is_candidate(demo)) facts.counts.push_back(carried_over(atlas.feature_counts(demo), counted));
   }
   std::sort(facts.counts.begin(), facts.counts.end());

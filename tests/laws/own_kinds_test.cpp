@@ -22,7 +22,7 @@ class SlipsAtOnce final : public Learner {
   [[nodiscard]] bool answers_as_believed() const override { return false; }
   void begin_component() override {}
   void watch(std::span<const HalfSpace>, std::size_t) override {}
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests, std::size_t) const override {
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests, std::size_t) const override {
     const auto& atlas = behaviours.atlas();
     Response response;
     for (const auto test : tests) {

@@ -21,7 +21,7 @@ constexpr std::size_t kRandomPaths = 1200;  // of each domain
 using Actions = std::vector<std::size_t>;
 
 // Mostly what the robot does, now and then something else, until the end or until somebody has had enough.
-Actions random_path(const Atlas& atlas, DemoIndex demo, RandomStream& random) {
+Actions random_path(const Atlas& atlas, StartIndex demo, RandomStream& random) {
   constexpr std::size_t kLongest = 80;
   const auto [world, start] = atlas.id(demo);
   const auto& mdp = atlas.domain().mdp(world);
@@ -47,7 +47,7 @@ class Lines {
         worlds_(atlas.domain().num_mdps(), Json::array()),
         moves_(atlas.domain().num_mdps(), Json::array()) {}
 
-  void add(DemoIndex demo, const Actions& actions, bool for_ever) {
+  void add(StartIndex demo, const Actions& actions, bool for_ever) {
     const auto judged = judged_path(atlas_, demo, actions, for_ever);
     if (for_ever && !judged.is_legal) return;
     const auto& robot = atlas_.feature_counts(demo);
@@ -64,7 +64,7 @@ class Lines {
   }
 
   // The robot goes on as ever behind the move.
-  void add_moves(DemoIndex demo) {
+  void add_moves(StartIndex demo) {
     const auto [world, start] = atlas_.id(demo);
     const auto& robot = atlas_.feature_counts(demo);
     const auto choices = atlas_.domain().mdp(world).choices(start);
@@ -98,7 +98,7 @@ void print_paths(const std::string& name) {
   const Atlas atlas{load_domain(name)};
   Lines lines{atlas};
   RandomStream random{38};
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.domain().is_exact()) lines.add_moves(demo);
     if (!atlas.is_candidate(demo)) continue;
     const auto path = answerable_path(atlas, demo);
@@ -108,7 +108,7 @@ void print_paths(const std::string& name) {
     lines.add(demo, actions, path->repeats_from.has_value());
   }
   for (std::size_t i = 0; i < kRandomPaths; ++i) {
-    const DemoIndex demo{uniform_index(atlas.num_demos(), random)};
+    const StartIndex demo{uniform_index(atlas.num_states(), random)};
     const auto actions = random_path(atlas, demo, random);
     lines.add(demo, actions, false);
     if (atlas.domain().mdp(MdpIndex{0}).discount() < 1.0) lines.add(demo, actions, true);

@@ -33,7 +33,7 @@ std::vector<std::optional<IntegerVector>> path_counts(const Mdp& mdp, std::span<
 }  // namespace
 
 NaiveCounterfactuals::NaiveCounterfactuals(const Atlas& atlas) : atlas_{atlas} {
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     const auto mdp = atlas.id(demo).mdp;
     auto& path = paths_.emplace_back();
     for (const auto state : atlas.trajectory(demo).states) {
@@ -60,7 +60,7 @@ void NaiveCounterfactuals::add_conveyed(MdpIndex m, const Eigen::Vector3d& weigh
 }
 
 std::vector<std::vector<HalfSpace>> NaiveCounterfactuals::conveyed(std::span<const Eigen::Vector3d> persons) const {
-  std::vector<std::vector<IntegerVector>> normals(atlas_.num_demos());
+  std::vector<std::vector<IntegerVector>> normals(atlas_.num_states());
   for (const auto& weights : persons) {
     for (MdpIndex m{0}; m.value() < atlas_.domain().num_mdps(); ++m) add_conveyed(m, weights, normals);
   }

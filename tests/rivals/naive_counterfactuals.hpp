@@ -28,7 +28,7 @@ class NaiveCounterfactuals {
   void add_conveyed(MdpIndex m, const Eigen::Vector3d& weights, std::vector<std::vector<IntegerVector>>& by_demo) const;
 
   const Atlas& atlas_;
-  std::vector<std::vector<DemoIndex>> paths_;  // per demonstration, all states of the robot's path
+  std::vector<std::vector<StartIndex>> paths_;  // per demonstration, all states of the robot's path
 };
 
 }  // namespace kith::rivals

@@ -79,9 +79,9 @@ TEST(NaiveCounterfactuals, ConveyWhatTheAtlasLooksUp) {
   for (std::uint64_t turn = 0; turn < 2; ++turn) {
     const auto theirs = naive.conveyed(interaction.people(turn));
     const auto rows = atlas().tables().conveyed_by_class(interaction.cells(turn));
-    for (DemoIndex demo{0}; demo.value() < atlas().num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas().num_states(); ++demo) {
       const auto row =
-          std::span{rows}.subspan(atlas().demo_class(demo).value() * atlas().words_per_set(), atlas().words_per_set());
+          std::span{rows}.subspan(atlas().start_class(demo).value() * atlas().words_per_set(), atlas().words_per_set());
       ASSERT_EQ(atlas().constraints().half_spaces(ConstraintSet{row}), theirs[demo.value()]) << demo.value();
     }
   }

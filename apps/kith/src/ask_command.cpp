@@ -24,7 +24,7 @@ struct AskOptions {
 };
 
 // Nothing where nothing is left to chance.
-std::vector<PolicyRun> runs_from(const Atlas& atlas, DemoIndex demo) {
+std::vector<PolicyRun> runs_from(const Atlas& atlas, StartIndex demo) {
   constexpr std::size_t kRuns = 10;
   if (atlas.domain().is_exact()) return {};
   auto random = RandomStream{1}.split("runs").split(demo.value());

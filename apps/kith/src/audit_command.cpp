@@ -352,7 +352,7 @@ class AuditText {
     }
   }
 
-  [[nodiscard]] std::string place(DemoIndex demo) const {
+  [[nodiscard]] std::string place(StartIndex demo) const {
     const auto id = atlas_.id(demo);
     return fmt::format("world {}, start {}", id.mdp.value(), id.start.value());
   }

@@ -77,7 +77,7 @@ class CurriculumText {
   }
 
   // What happened in several runs, and the paths that they took.
-  void runs(DemoIndex demo, const std::vector<PolicyRun>& all) {
+  void runs(StartIndex demo, const std::vector<PolicyRun>& all) {
     if (all.empty()) return;
     constexpr std::size_t kFew = 3;
     line(runs_in_words(domain_, atlas_.id(demo).mdp, all), 5);

@@ -61,11 +61,11 @@ void list_constraints(const Atlas& atlas, Console& console) {
 // A start that teaches or tests the constraint alone, in the family or in a world that was made.
 struct FoundDemo {
   const Atlas& atlas;
-  DemoIndex demo;
+  StartIndex demo;
   const MadeWorld* made;  // nothing: it is in the family
 };
 
-std::string reason_of(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+std::string reason_of(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   const auto contrast = contrast_for(atlas, demo, constraint);
   return contrast ? reason(atlas, *contrast) : in_words(atlas.domain(), constraint);
 }

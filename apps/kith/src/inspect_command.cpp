@@ -84,7 +84,7 @@ class Inspection {
   [[nodiscard]] std::string map() const {
     const auto map = domain_.drawing();
     if (!map) return model();
-    const DemoId start{mdp_, domain_.initial_state(mdp_)};
+    const StartId start{mdp_, domain_.initial_state(mdp_)};
     return (map->is_picture() ? model() : "") +
            heading_text(fmt::format("Map of {}, and its first start", world_text(domain_, mdp_))) +
            beside({bare_picture(*map, start), start_picture(*map, start)}, 2) + "\n" + legend(domain_, 2);
@@ -273,7 +273,7 @@ class Inspection {
     heading("What can test each constraint of the policy");
     for (const auto& half_space : atlas_->policy_bec_half_spaces()) {
       const auto c = atlas_->constraints().find(half_space);
-      const auto tests = c ? atlas_->tests_for(*c) : std::span<const DemoIndex>{};
+      const auto tests = c ? atlas_->tests_for(*c) : std::span<const StartIndex>{};
       out_ += "  " + described(domain_, half_space) + fmt::format(": {} start states\n", tests.size());
       if (tests.empty()) continue;
       const auto id = atlas_->id(tests.front());
@@ -308,7 +308,7 @@ class Inspection {
     out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", tables->cells().size());
   }
 
-  void expected_by_a_sample(DemoIndex demo) {
+  void expected_by_a_sample(StartIndex demo) {
     Behaviours behaviours{*atlas_};
     const auto ways = expected_ways(behaviours, demo);
     out_ += "  by people whose weights fill the prior evenly\n";

@@ -232,7 +232,7 @@ int run(const StudyOptions& options, Console& console) {
   }
   facts.timings.emplace_back("read", seconds_since(begin) - plan_seconds);
   facts.timings.emplace_back("plan", plan_seconds);
-  note(fmt::format("planned {} demonstrations", atlas.num_demos()));
+  note(fmt::format("planned {} demonstrations", atlas.num_states()));
 
   const auto teach_begin = Clock::now();
   progress.begin(run.num_resumed());

@@ -31,7 +31,7 @@ std::vector<Eigen::Vector3d> some_weights(std::size_t n) {
 // What does a domain cost before the first team is taught?
 void BM_BuildAtlas(benchmark::State& state) {
   const auto domain = load_domain("item-delivery");
-  for (auto _ : state) benchmark::DoNotOptimize(Atlas{domain}.num_demos());
+  for (auto _ : state) benchmark::DoNotOptimize(Atlas{domain}.num_states());
 }
 BENCHMARK(BM_BuildAtlas)->Unit(benchmark::kMillisecond);
 

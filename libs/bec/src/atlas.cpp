@@ -13,14 +13,14 @@ Atlas::Atlas(Domain domain, BehaviourSource source) : domain_{std::move(domain)}
   AtlasBuilder{*this, source}.build();
 }
 
-Trajectory Atlas::trajectory(DemoIndex demo) const {
+Trajectory Atlas::trajectory(StartIndex demo) const {
   const auto [m, start] = id(demo);
   const Mdp& mdp = domain_.mdp(m);
   return shown_path(mdp, canonical_choices_[m.value()], shown_next_[m.value()], start);
 }
 
-std::vector<DemoIndex> Atlas::path(DemoIndex demo) const {
-  std::vector<DemoIndex> path;
+std::vector<StartIndex> Atlas::path(StartIndex demo) const {
+  std::vector<StartIndex> path;
   auto at = static_cast<std::uint32_t>(demo.value());
   for (; at != kTerminal && demos_[at].cycle_length == 0; at = demos_[at].next) path.emplace_back(at);
   if (at == kTerminal) return path;
@@ -28,12 +28,12 @@ std::vector<DemoIndex> Atlas::path(DemoIndex demo) const {
   return path;
 }
 
-ActionIndex Atlas::action(DemoIndex demo) const {
+ActionIndex Atlas::action(StartIndex demo) const {
   const auto [m, start] = id(demo);
   return domain_.mdp(m).choices(start)[canonical_choices_[m.value()][start.value()]].action;
 }
 
-IntegerVector Atlas::deviation_counts(DemoIndex demo, std::size_t choice) const {
+IntegerVector Atlas::deviation_counts(StartIndex demo, std::size_t choice) const {
   const auto [m, start] = id(demo);
   const Mdp& mdp = domain_.mdp(m);
   const auto choices = mdp.choices(start);
@@ -51,10 +51,10 @@ void Atlas::refuse_tables() const {
 }
 
 Atlas Atlas::with_tests(const std::vector<bool>& is_usable) const {
-  if (is_usable.size() != num_demos()) throw std::invalid_argument{"Atlas::with_tests: one flag per demonstration"};
+  if (is_usable.size() != num_states()) throw std::invalid_argument{"Atlas::with_tests: one flag per demonstration"};
   auto atlas = *this;
   for (auto& tests : atlas.tests_for_) {
-    std::erase_if(tests, [&](DemoIndex demo) { return !is_usable[demo.value()]; });
+    std::erase_if(tests, [&](StartIndex demo) { return !is_usable[demo.value()]; });
   }
   return atlas;
 }

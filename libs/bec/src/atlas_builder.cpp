@@ -37,7 +37,7 @@ void AtlasBuilder::build() {
     make_facets();
     tables_->cells_ = PolicyCells{tables_->hulls_};
   }
-  group_demos();
+  group_starts();
   index_tests();
   average_dissimilarities();
 }
@@ -153,7 +153,7 @@ void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const Path
     std::vector<std::int64_t> key;
     if (here.cycle_length > 0) {  // the whole round, which no path that ends is named by
       key.push_back(-1);
-      for (const DemoIndex on : atlas_.path(atlas_.index({m, s}))) {
+      for (const StartIndex on : atlas_.path(atlas_.index({m, s}))) {
         here.unique = here.unique && !atlas_.demos_[on.value()].tie;
         append_look(m, atlas_.id(on).start, robot, key);
       }
@@ -315,18 +315,18 @@ void AtlasBuilder::make_one_step_sets() {
 
 // Demonstrations that convey the same to everybody: where that is known, those whose paths meet the same hulls; else
 // each one is a class of its own.
-void AtlasBuilder::group_demos() {
+void AtlasBuilder::group_starts() {
   if (tables_) {
     group_by_hulls();
   } else {
     for (const std::size_t i : candidates()) {
-      atlas_.demos_[i].demo_class = DemoClassIndex{atlas_.classes_.size()};
+      atlas_.demos_[i].start_class = StartClassIndex{atlas_.classes_.size()};
       atlas_.classes_.emplace_back().emplace_back(i);
     }
   }
   for (auto& component : atlas_.components_) {
-    for (DemoClassIndex c{0}; c.value() < atlas_.num_demo_classes(); ++c) {
-      if (component.uses_mdp[atlas_.id(atlas_.members(c).front()).mdp.value()]) component.demo_classes.push_back(c);
+    for (StartClassIndex c{0}; c.value() < atlas_.num_start_classes(); ++c) {
+      if (component.uses_mdp[atlas_.id(atlas_.members(c).front()).mdp.value()]) component.start_classes.push_back(c);
     }
   }
 }
@@ -334,7 +334,7 @@ void AtlasBuilder::group_demos() {
 void AtlasBuilder::index_tests() {
   atlas_.tests_for_.resize(atlas_.constraints_.size());
   for (const std::size_t i : candidates()) {
-    const DemoIndex demo{i};
+    const StartIndex demo{i};
     for (const auto c : atlas_.one_step(demo).members()) {
       const bool discriminates = !tables_ || tables_->robot_cell_facets(demo).contains(c);
       if (discriminates) atlas_.tests_for_[c.value()].push_back(demo);

@@ -49,7 +49,7 @@ class AtlasBuilder {
   [[nodiscard]] std::vector<KnowledgeComponent> worth_most(std::vector<KnowledgeComponent> candidates);
   [[nodiscard]] bool is_of_use(const KnowledgeComponent& component) const;
   void make_facets();
-  void group_demos();
+  void group_starts();
   void group_by_hulls();
   void index_tests();
   void average_dissimilarities();

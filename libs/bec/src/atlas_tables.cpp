@@ -86,7 +86,7 @@ void AtlasBuilder::group_by_hulls() {
       for (const auto h : hulls) of_class.emplace_back(static_cast<std::size_t>(h));
     }
     atlas_.classes_[place->second].emplace_back(i);
-    atlas_.demos_[i].demo_class = DemoClassIndex{place->second};
+    atlas_.demos_[i].start_class = StartClassIndex{place->second};
   }
   tables_->num_constraints_ = atlas_.constraints_.size();
 }

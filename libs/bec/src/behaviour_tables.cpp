@@ -4,7 +4,7 @@
 
 namespace kith {
 
-std::vector<IntegerVector> BehaviourTables::coverage_set(DemoIndex demo) const {
+std::vector<IntegerVector> BehaviourTables::coverage_set(StartIndex demo) const {
   const auto& start = starts_[demo.value()];
   std::vector<IntegerVector> vertices;
   for (const auto& loss : hull(start.hull).losses) vertices.push_back(start.robot_counts - loss);
@@ -12,7 +12,7 @@ std::vector<IntegerVector> BehaviourTables::coverage_set(DemoIndex demo) const {
   return vertices;
 }
 
-std::optional<IntegerVector> BehaviourTables::answer(DemoIndex demo, PolicyCellIndex cell) const {
+std::optional<IntegerVector> BehaviourTables::answer(StartIndex demo, PolicyCellIndex cell) const {
   const auto& start = starts_[demo.value()];
   const auto choice = cells_.choice(cell, start.hull);
   if (choice == PolicyCells::kNone) return std::nullopt;
@@ -45,9 +45,9 @@ std::vector<std::uint64_t> BehaviourTables::conveyed_by_class(std::span<const Po
   return by_class;
 }
 
-ConstraintSet BehaviourTables::conveyed(DemoClassIndex demo_class, std::span<const PolicyCellIndex> cells) const {
+ConstraintSet BehaviourTables::conveyed(StartClassIndex start_class, std::span<const PolicyCellIndex> cells) const {
   ConstraintSet set{num_constraints_};
-  for (const auto h : hulls_of_class_[demo_class.value()]) add_conveyed(h, cells, set.words());
+  for (const auto h : hulls_of_class_[start_class.value()]) add_conveyed(h, cells, set.words());
   return set;
 }
 

@@ -8,7 +8,7 @@
 
 namespace kith {
 
-ConstraintSet Behaviours::Conveyed::set(DemoClassIndex c) const {
+ConstraintSet Behaviours::Conveyed::set(StartClassIndex c) const {
   const auto row = rows.subspan(c.value() * words, words);
   if (numbering.empty()) return ConstraintSet{row};
   ConstraintSet result;
@@ -56,11 +56,11 @@ PartitionStore::PartitionStore(const Atlas& atlas, std::size_t max_bytes)
   const Domain& domain = atlas.domain();
   for (const std::int64_t w : domain.weights().integer) robot_weights_.push_back(static_cast<double>(w));
   current_ = std::make_shared<Generation>(domain.num_mdps(), bytes_);
-  places_.assign(atlas.num_demos(), -1);
+  places_.assign(atlas.num_states(), -1);
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     std::vector<bool> is_on_path(domain.mdp(m).num_states(), false);
     for (const StateIndex start : domain.starts(m)) {
-      for (const DemoIndex demo : atlas.path(atlas.index({m, start}))) is_on_path[atlas.id(demo).start.value()] = true;
+      for (const StartIndex demo : atlas.path(atlas.index({m, start}))) is_on_path[atlas.id(demo).start.value()] = true;
     }
     auto& states = states_.emplace_back();
     for (StateIndex s{0}; s.value() < is_on_path.size(); ++s) {
@@ -117,7 +117,7 @@ Behaviours::~Behaviours() = default;
 
 PolicyCellIndex Behaviours::locate(const Direction& weights) { return people_->locate(weights); }
 
-std::optional<IntegerVector> Behaviours::answer(DemoIndex demo, PolicyCellIndex cell) {
+std::optional<IntegerVector> Behaviours::answer(StartIndex demo, PolicyCellIndex cell) {
   return people_->answer(demo, cell);
 }
 
@@ -128,7 +128,7 @@ Behaviours::Conveyed Behaviours::conveyed_by_class(const KnowledgeComponent& com
   return people_->conveyed_by_class(component, cells);
 }
 
-ConstraintSet Behaviours::conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) {
+ConstraintSet Behaviours::conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) {
   return people_->conveyed(demo, cells);
 }
 
@@ -136,7 +136,7 @@ std::size_t Behaviours::memory() const noexcept {
   return constraints_.size() * (2 * sizeof(HalfSpace) + kBytesOfNode) + people_->memory();
 }
 
-std::optional<Trajectory> Behaviours::trajectory(DemoIndex demo, const Direction& weights) const {
+std::optional<Trajectory> Behaviours::trajectory(StartIndex demo, const Direction& weights) const {
   const auto [m, start] = atlas_->id(demo);
   const Mdp& mdp = atlas_->domain().mdp(m);
   const auto behaviour = behave_in_favour(mdp, {weights.data(), static_cast<std::size_t>(weights.size())},

@@ -19,7 +19,7 @@ void GradeTable::grade_starts(const Atlas& atlas) {
   const std::size_t columns = num_components_ + 1;
   std::vector<double> counts(num_hulls_ * columns, 0.0);
   std::vector<double> totals(columns, 0.0);
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     for (std::size_t k = 0; k < columns; ++k) {
       if (k < num_components_ && !atlas.knowledge_components()[k].uses_mdp[atlas.id(demo).mdp.value()]) continue;

@@ -26,7 +26,7 @@ class PeopleRegret {
 
   // A start where somebody takes a worse path than the robot.
   struct Mistake {
-    DemoIndex start;
+    StartIndex start;
     double regret = 0.0;      // divided by the number of starts, so that those of one person add up to of(), or to less
     IntegerVector advantage;  // what the robot's path counts more than theirs, in units of 1 / Domain::count_scale()
   };
@@ -35,7 +35,7 @@ class PeopleRegret {
 
  private:
   struct Start {
-    DemoIndex demo;
+    StartIndex demo;
     double worst = 0.0;  // of a single deviation
   };
 

@@ -18,11 +18,11 @@ class PlannedExpectations : public Expectations {
                       std::size_t max_row_bytes, std::shared_ptr<PolicyPartitions> partitions);
 
   PolicyCellIndex locate(const Direction& weights) override;
-  std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell) override;
+  std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) override;
   [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const override { return cells_[cell.value()].weights; }
   Behaviours::Conveyed conveyed_by_class(const KnowledgeComponent& component,
                                          std::span<const PolicyCellIndex> cells) override;
-  ConstraintSet conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) override;
+  ConstraintSet conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) override;
   [[nodiscard]] std::size_t memory() const noexcept override;
 
  private:
@@ -68,7 +68,7 @@ class PlannedExpectations : public Expectations {
   SetIndex union_of(std::vector<SetIndex>& sets);
   void find_sets(MdpIndex m, Kept& behaviour);
   std::vector<BehaviourIndex> behaviours_of(std::span<const PolicyCellIndex> cells, MdpIndex m);
-  SetIndex conveyed_by(DemoIndex demo, std::span<const BehaviourIndex> behaviours);
+  SetIndex conveyed_by(StartIndex demo, std::span<const BehaviourIndex> behaviours);
   std::vector<SetIndex> sets_by_class(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
   void number_constraints_of(std::span<const SetIndex> sets);
 
@@ -136,7 +136,7 @@ PolicyCellIndex PlannedExpectations::locate(const Direction& weights) {
   return place->second;
 }
 
-std::optional<IntegerVector> PlannedExpectations::answer(DemoIndex demo, PolicyCellIndex cell) {
+std::optional<IntegerVector> PlannedExpectations::answer(StartIndex demo, PolicyCellIndex cell) {
   make_room();
   const MdpIndex m = atlas_->id(demo).mdp;
   const auto b = behaviour_of(cell, m);
@@ -281,7 +281,7 @@ void PlannedExpectations::find_sets(MdpIndex m, Kept& behaviour) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     SetIndex set = nothing;
     open.clear();
-    for (std::optional<DemoIndex> at = atlas_->index({m, states[i]}); at; at = atlas_->next(*at)) {
+    for (std::optional<StartIndex> at = atlas_->index({m, states[i]}); at; at = atlas_->next(*at)) {
       const auto place = static_cast<std::size_t>(partitions_->place(*at));
       if (behaviour.sets[place] != kNoSet) {
         set = behaviour.sets[place];
@@ -337,7 +337,7 @@ std::vector<PlannedExpectations::BehaviourIndex> PlannedExpectations::behaviours
   return found;
 }
 
-PlannedExpectations::SetIndex PlannedExpectations::conveyed_by(DemoIndex demo,
+PlannedExpectations::SetIndex PlannedExpectations::conveyed_by(StartIndex demo,
                                                                std::span<const BehaviourIndex> behaviours) {
   const World& world = worlds_[atlas_->id(demo).mdp.value()];
   const auto place = static_cast<std::size_t>(partitions_->place(demo));
@@ -357,13 +357,13 @@ std::vector<PlannedExpectations::SetIndex> PlannedExpectations::sets_by_class(co
     if (component.uses_mdp[m]) by_mdp[m] = behaviours_of(cells, MdpIndex{m});
   }
 
-  std::vector<SetIndex> by_class(atlas_->num_demo_classes(), kNoSet);
+  std::vector<SetIndex> by_class(atlas_->num_start_classes(), kNoSet);
   // Classes that follow each other mostly start in the same MDP, and many convey the same: then the last union is it.
   std::vector<SetIndex> own, last;
   std::size_t last_mdp = worlds_.size();
   SetIndex last_set = kNoSet;
-  for (const auto c : component.demo_classes) {
-    const DemoIndex demo = atlas_->members(c).front();
+  for (const auto c : component.start_classes) {
+    const StartIndex demo = atlas_->members(c).front();
     const std::size_t m = atlas_->id(demo).mdp.value();
     const auto place = static_cast<std::size_t>(partitions_->place(demo));
     own.clear();
@@ -430,7 +430,7 @@ Behaviours::Conveyed PlannedExpectations::conveyed_by_class(const KnowledgeCompo
   return {words, rows_, numbering_};
 }
 
-ConstraintSet PlannedExpectations::conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) {
+ConstraintSet PlannedExpectations::conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) {
   make_room();
   ConstraintSet result;
   const auto behaviours = behaviours_of(cells, atlas_->id(demo).mdp);

@@ -16,7 +16,7 @@ class TabulatedExpectations : public Expectations {
   PolicyCellIndex locate(const Direction& weights) override {
     return tables_->cells().locate(Eigen::Vector3d{weights});
   }
-  std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell) override {
+  std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) override {
     return tables_->answer(demo, cell);
   }
   [[nodiscard]] const Direction& weights(PolicyCellIndex /*cell*/) const override {
@@ -24,15 +24,15 @@ class TabulatedExpectations : public Expectations {
   }
   Behaviours::Conveyed conveyed_by_class(const KnowledgeComponent& component,
                                          std::span<const PolicyCellIndex> cells) override;
-  ConstraintSet conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) override {
-    return tables_->conveyed(atlas_->demo_class(demo), cells);
+  ConstraintSet conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) override {
+    return tables_->conveyed(atlas_->start_class(demo), cells);
   }
   [[nodiscard]] std::size_t memory() const noexcept override { return cells_with_rows_.size() * bytes_of_rows(); }
 
  private:
   // Of one cell.
   [[nodiscard]] std::size_t bytes_of_rows() const noexcept {
-    return atlas_->num_demo_classes() * atlas_->words_per_set() * sizeof(std::uint64_t);
+    return atlas_->num_start_classes() * atlas_->words_per_set() * sizeof(std::uint64_t);
   }
   const std::vector<std::uint64_t>& rows_of(PolicyCellIndex cell);
 
@@ -62,7 +62,7 @@ const std::vector<std::uint64_t>& TabulatedExpectations::rows_of(PolicyCellIndex
 // Each cell's rows are computed once; several are their union.
 Behaviours::Conveyed TabulatedExpectations::conveyed_by_class(const KnowledgeComponent& /*component*/,
                                                               std::span<const PolicyCellIndex> cells) {
-  rows_.assign(atlas_->num_demo_classes() * atlas_->words_per_set(), 0);
+  rows_.assign(atlas_->num_start_classes() * atlas_->words_per_set(), 0);
   for (const auto cell : cells) {
     const auto& rows = rows_of(cell);
     const std::uint64_t* const from = rows.data();  // unchecked, for speed

@@ -25,12 +25,12 @@ Eigen::Vector3d random_weights(RandomStream& random) { return Cone{}.sample(rand
 TEST(ItemDelivery, HasItsPublishedSize) {
   const auto& atlas = item_delivery();
   EXPECT_EQ(atlas.domain().num_mdps(), 64u);
-  EXPECT_EQ(atlas.num_demos(), 9312u);
+  EXPECT_EQ(atlas.num_states(), 9312u);
   std::size_t ties = 0;
   std::size_t unique = 0;
   std::size_t shortest = std::numeric_limits<std::size_t>::max();
   std::size_t longest = 0;
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     ties += atlas.has_tie(demo) ? 1u : 0u;
     unique += atlas.is_unique(demo) ? 1u : 0u;
     const auto length = atlas.trajectory(demo).actions.size();
@@ -111,18 +111,18 @@ TEST(Atlas, ThePolicysBecImpliesEveryOneStepAndCounterfactualConstraint) {
 
 TEST(Atlas, CanDoWithoutSomeTests) {
   const auto& atlas = item_delivery();
-  std::vector<bool> is_usable(atlas.num_demos());
+  std::vector<bool> is_usable(atlas.num_states());
   for (std::size_t i = 0; i < is_usable.size(); ++i) is_usable[i] = i % 2 == 0;
   const auto fewer = atlas.with_tests(is_usable);
   std::size_t left_out = 0;
   for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
-    std::vector<DemoIndex> expected;
+    std::vector<StartIndex> expected;
     for (const auto demo : atlas.tests_for(c)) {
       if (demo.value() % 2 == 0) expected.push_back(demo);
     }
     left_out += atlas.tests_for(c).size() - expected.size();
     const auto tests = fewer.tests_for(c);
-    EXPECT_EQ(std::vector<DemoIndex>(tests.begin(), tests.end()), expected);
+    EXPECT_EQ(std::vector<StartIndex>(tests.begin(), tests.end()), expected);
   }
   EXPECT_GT(left_out, 0u);
   is_usable.pop_back();
@@ -131,17 +131,17 @@ TEST(Atlas, CanDoWithoutSomeTests) {
 
 TEST(Atlas, IndexAndIdAreInverse) {
   const auto& atlas = item_delivery();
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) ASSERT_EQ(atlas.index(atlas.id(demo)), demo);
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) ASSERT_EQ(atlas.index(atlas.id(demo)), demo);
 }
 
 TEST(Atlas, ClassesPartitionTheDemonstrations) {
   const auto& atlas = item_delivery();
   std::size_t members = 0;
-  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
-    for (const auto demo : atlas.members(c)) ASSERT_EQ(atlas.demo_class(demo), c);
+  for (StartClassIndex c{0}; c.value() < atlas.num_start_classes(); ++c) {
+    for (const auto demo : atlas.members(c)) ASSERT_EQ(atlas.start_class(demo), c);
     members += atlas.members(c).size();
   }
-  EXPECT_EQ(members, atlas.num_demos());
+  EXPECT_EQ(members, atlas.num_states());
 }
 
 // A learner's answer by look-up is the best of the coverage set under the
@@ -154,7 +154,7 @@ TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
     auto w = random_weights(random);
     if (i % 2 == 0) w.z() = -std::abs(w.z());  // half of them where optima are finite
     const auto cell = atlas.tables().cells().locate(w);
-    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       const auto answer = atlas.tables().answer(demo, cell);
       ASSERT_EQ(answer.has_value(), atlas.tables().finite_region(demo).contains(w));
       if (!answer) continue;
@@ -224,14 +224,14 @@ TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
       }
       std::sort(expected.begin(), expected.end());
       expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
-      ASSERT_EQ(atlas.constraints().half_spaces(atlas.tables().conveyed(atlas.demo_class(demo), cells)), expected);
+      ASSERT_EQ(atlas.constraints().half_spaces(atlas.tables().conveyed(atlas.start_class(demo), cells)), expected);
     }
   }
 }
 
 TEST(Atlas, DeviationCountsAreWhatOneStepComparesThePathWith) {
   const auto& atlas = item_delivery();
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 101}) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 101}) {
     std::vector<HalfSpace> comparisons;
     for (const auto here : atlas.path(demo)) {
       const auto& mdp = atlas.domain().mdp(atlas.id(here).mdp);
@@ -242,7 +242,7 @@ TEST(Atlas, DeviationCountsAreWhatOneStepComparesThePathWith) {
     }
     ASSERT_EQ(atlas.constraints().half_spaces(atlas.one_step(demo)), minimal_set(comparisons));
   }
-  EXPECT_THROW(static_cast<void>(atlas.deviation_counts(DemoIndex{0}, 99)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(atlas.deviation_counts(StartIndex{0}, 99)), std::invalid_argument);
 }
 
 TEST(Atlas, ClassRowsEqualTheDemonstrationsOwn) {
@@ -256,9 +256,9 @@ TEST(Atlas, ClassRowsEqualTheDemonstrationsOwn) {
   }
   const auto rows = atlas.tables().conveyed_by_class(cells);
   const auto words = atlas.words_per_set();
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 7}) {
-    const auto row = std::span{rows}.subspan(atlas.demo_class(demo).value() * words, words);
-    ASSERT_EQ(ConstraintSet{row}, atlas.tables().conveyed(atlas.demo_class(demo), cells));
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 7}) {
+    const auto row = std::span{rows}.subspan(atlas.start_class(demo).value() * words, words);
+    ASSERT_EQ(ConstraintSet{row}, atlas.tables().conveyed(atlas.start_class(demo), cells));
   }
 }
 
@@ -287,7 +287,7 @@ TEST(Atlas, TestsDiscriminateTheirConstraint) {
 TEST(Atlas, NextToTheRobotsWeightsEverybodyAnswersLikeTheRobot) {
   const auto& atlas = item_delivery();
   const auto cell = atlas.tables().cells().locate(atlas.domain().weights().unit);
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     ASSERT_EQ(atlas.tables().answer(demo, cell), atlas.feature_counts(demo));
   }
 }

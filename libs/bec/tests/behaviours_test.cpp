@@ -55,8 +55,8 @@ TEST(Behaviours, AtlasWithoutTablesKnowsTheSamePolicy) {
   EXPECT_FALSE(on_demand().find_tables());
   EXPECT_EQ(on_demand().policy_bec_half_spaces(), tables.policy_bec_half_spaces());
   EXPECT_EQ(on_demand().policy_bec_area_sr(), tables.policy_bec_area_sr());
-  ASSERT_EQ(on_demand().num_demos(), tables.num_demos());
-  for (DemoIndex demo{0}; demo.value() < tables.num_demos(); ++demo) {
+  ASSERT_EQ(on_demand().num_states(), tables.num_states());
+  for (StartIndex demo{0}; demo.value() < tables.num_states(); ++demo) {
     ASSERT_EQ(on_demand().feature_counts(demo), tables.feature_counts(demo));
     ASSERT_EQ(on_demand().constraints().half_spaces(on_demand().one_step(demo)),
               tables.constraints().half_spaces(tables.one_step(demo)));
@@ -83,9 +83,9 @@ TEST(Behaviours, PlansWhatTheTablesSay) {
     }
     const auto from_tables = tables.conveyed_by_class(all, in_tables);
     const auto from_plans = plans.conveyed_by_class(all_planned, in_plans);
-    for (DemoIndex demo{0}; demo.value() < item_delivery().num_demos(); demo = DemoIndex{demo.value() + 7}) {
-      ASSERT_EQ(plans.constraints().half_spaces(from_plans.set(on_demand().demo_class(demo))),
-                tables.constraints().half_spaces(from_tables.set(item_delivery().demo_class(demo))));
+    for (StartIndex demo{0}; demo.value() < item_delivery().num_states(); demo = StartIndex{demo.value() + 7}) {
+      ASSERT_EQ(plans.constraints().half_spaces(from_plans.set(on_demand().start_class(demo))),
+                tables.constraints().half_spaces(from_tables.set(item_delivery().start_class(demo))));
       for (std::size_t i = 0; i < in_plans.size(); ++i) {
         const auto answer = plans.answer(demo, in_plans[i]);
         ASSERT_EQ(answer, tables.answer(demo, in_tables[i]));
@@ -104,7 +104,7 @@ TEST(Behaviours, ForgetsAndPlansAgain) {
   for (int i = 0; i < 5; ++i) weights.push_back(random_weights(random, 3));
   for (int round = 0; round < 2; ++round) {
     for (const auto& w : weights) {
-      for (const DemoIndex demo : {DemoIndex{17}, DemoIndex{4000}, DemoIndex{9000}}) {
+      for (const StartIndex demo : {StartIndex{17}, StartIndex{4000}, StartIndex{9000}}) {
         EXPECT_EQ(few.answer(demo, few.locate(w)), plenty.answer(demo, plenty.locate(w)));
         const auto cell = few.locate(w);
         const auto other = plenty.locate(w);
@@ -134,7 +134,7 @@ TEST(PartitionStore, KeepsNoMoreThanItMayAndAnswersAllTheSame) {
         ++num_renewed;
       }
       Behaviours few{on_demand(), 2, 0, views[i]};
-      for (const DemoIndex demo : {DemoIndex{17}, DemoIndex{4000}, DemoIndex{9000}}) {
+      for (const StartIndex demo : {StartIndex{17}, StartIndex{4000}, StartIndex{9000}}) {
         ASSERT_EQ(few.answer(demo, few.locate(weights)), plenty.answer(demo, plenty.locate(weights)));
       }
       ASSERT_LE(store->memory(), kMost + kOneLookup);
@@ -152,7 +152,7 @@ TEST(PartitionStore, IsSharedByThreads) {
   std::vector<Direction> weights;
   std::vector<std::optional<IntegerVector>> expected;
   Behaviours alone{on_demand()};
-  const DemoIndex demo{4000};
+  const StartIndex demo{4000};
   for (int i = 0; i < 60; ++i) {
     weights.push_back(random_weights(random, 3));
     expected.push_back(alone.answer(demo, alone.locate(weights.back())));
@@ -188,7 +188,7 @@ TEST(Behaviours, DiscountedOnesAreComparedByExpectedCounts) {
   }
   // Counts of the path that is shown, discounted.
   const auto scale = static_cast<double>(atlas.domain().count_scale());
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 101}) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 101}) {
     const auto path = atlas.trajectory(demo);
     const double steps = (1.0 - std::pow(0.98, static_cast<double>(path.actions.size()))) / 0.02;
     EXPECT_NEAR(static_cast<double>(atlas.feature_counts(demo)[2]) / scale, steps, 1e-6);
@@ -198,7 +198,7 @@ TEST(Behaviours, DiscountedOnesAreComparedByExpectedCounts) {
   const auto own = behaviours.locate(robot.unit);
   auto random = RandomStream{8}.split("weights");
   const auto other = behaviours.locate(random_weights(random, 3));
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 997}) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 997}) {
     EXPECT_TRUE(behaviours.conveyed(demo, {&own, 1}).empty());
     const auto answer = behaviours.answer(demo, other);
     ASSERT_TRUE(answer.has_value());

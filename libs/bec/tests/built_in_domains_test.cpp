@@ -33,7 +33,7 @@ std::vector<HalfSpace> constraints_of(const Atlas& atlas, const KnowledgeCompone
 TEST(ColoredTiles, HasThePublishedFamily) {
   const auto& atlas = atlas_of("colored-tiles");
   EXPECT_EQ(atlas.domain().num_mdps(), 512u);
-  EXPECT_EQ(atlas.num_demos(), 12'288u);
+  EXPECT_EQ(atlas.num_states(), 12'288u);
   for (std::size_t m = 0; m < 512; ++m) EXPECT_EQ(atlas.domain().mdp(MdpIndex{m}).num_states(), 24u);
 }
 

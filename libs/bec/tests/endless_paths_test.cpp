@@ -18,7 +18,7 @@ using testing::discounted_domain;
 using testing::kDiscounts;
 
 // What a path counts is what the atlas says: the way in, and the cycle as a geometric series.
-void expect_counts(const Atlas& atlas, DemoIndex demo, const Trajectory& path) {
+void expect_counts(const Atlas& atlas, StartIndex demo, const Trajectory& path) {
   const auto& domain = atlas.domain();
   const auto& mdp = domain.mdp(atlas.id(demo).mdp);
   if (!mdp.is_deterministic()) return;  // expectations are of more than one path
@@ -30,7 +30,7 @@ void expect_counts(const Atlas& atlas, DemoIndex demo, const Trajectory& path) {
 }
 
 // The path ends, or comes back once, and every state on it is one of its own demonstrations.
-void expect_whole(const Atlas& atlas, DemoIndex demo, const Trajectory& path) {
+void expect_whole(const Atlas& atlas, StartIndex demo, const Trajectory& path) {
   const auto [m, start] = atlas.id(demo);
   ASSERT_GE(path.actions.size(), 1U);
   ASSERT_EQ(path.states.size(), path.actions.size() + 1);
@@ -53,7 +53,7 @@ void expect_whole(const Atlas& atlas, DemoIndex demo, const Trajectory& path) {
 }
 
 // What every single deviation from the path tells follows from what the start shows.
-void expect_shown(const Atlas& atlas, DemoIndex demo) {
+void expect_shown(const Atlas& atlas, StartIndex demo) {
   const auto shown = Cone::intersection(atlas.constraints().half_spaces(atlas.one_step(demo)));
   const auto& weights = atlas.domain().weights().integer;
   for (const auto here : atlas.path(demo)) {
@@ -69,8 +69,8 @@ void expect_shown(const Atlas& atlas, DemoIndex demo) {
 
 void expect_laws(const Atlas& atlas, std::size_t stride, std::size_t& endless) {
   std::map<std::uint32_t, Trajectory> looks;
-  for (std::size_t i = 0; i < atlas.num_demos(); i += 1 + i % stride) {
-    const DemoIndex demo{i};
+  for (std::size_t i = 0; i < atlas.num_states(); i += 1 + i % stride) {
+    const StartIndex demo{i};
     const auto path = atlas.trajectory(demo);
     endless += path.repeats_from ? 1U : 0U;
     expect_whole(atlas, demo, path);
@@ -129,8 +129,8 @@ TEST(RandomEndlessPaths, AreWaysInAndCyclesThatCountAsTheRobotDoes) {
 TEST(EndlessPath, OccurInItemDeliveryWhereTheParcelIsTooFarAway) {
   const Atlas atlas{discounted_domain("item-delivery", 0.9)};
   std::size_t endless = 0;
-  for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-    endless += atlas.trajectory(DemoIndex{i}).repeats_from ? 1U : 0U;
+  for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+    endless += atlas.trajectory(StartIndex{i}).repeats_from ? 1U : 0U;
   }
   EXPECT_EQ(endless, 274U);
 }
@@ -145,8 +145,8 @@ TEST(EndlessPath, ConveyTheSameAtAllStatesOfACycle) {
     Direction weights{atlas.domain().weights().unit};
     for (double& w : weights) w += 0.3 * standard_normal(random);
     const std::vector<PolicyCellIndex> cells{behaviours.locate(weights.normalized())};
-    for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-      const DemoIndex demo{i};
+    for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+      const StartIndex demo{i};
       const auto path = atlas.path(demo);
       if (!atlas.trajectory(demo).repeats_from) continue;
       ConstraintSet at_each;

@@ -159,10 +159,10 @@ void expect_equivariance(const std::string& name) {
     // What a demonstration alone adds to the prior, of every so many-th.
     Regions others{permuted.constraints()};
     const auto known = regions.minimal(original.prior()), known_there = others.minimal(permuted.prior());
-    ASSERT_EQ(permuted.num_demos(), original.num_demos()) << where;
-    const auto stride = original.num_demos() / 50 + 1;
-    for (std::size_t i = 0; i < original.num_demos(); i += stride) {
-      const DemoIndex demo{i};
+    ASSERT_EQ(permuted.num_states(), original.num_states()) << where;
+    const auto stride = original.num_states() / 50 + 1;
+    for (std::size_t i = 0; i < original.num_states(); i += stride) {
+      const StartIndex demo{i};
       if (!original.is_candidate(demo)) continue;
       const auto shown = original.one_step(demo), shown_there = permuted.one_step(demo);
       ASSERT_EQ(back(permuted.constraints().half_spaces(shown_there), order),

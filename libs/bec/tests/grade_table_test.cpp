@@ -32,7 +32,7 @@ TEST(GradeTable, IsTheMeanOverAllStarts) {
   const auto& raw = atlas.domain().weights().raw;
   for (std::size_t cell = 0; cell < atlas.tables().cells().size(); cell += 40) {
     double right = 0.0, regret = 0.0;
-    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       const auto& robot = atlas.feature_counts(demo);
       double worst = 0.0;
       for (const auto& counts : atlas.tables().coverage_set(demo)) worst = std::max(worst, dot(robot - counts, raw));
@@ -41,7 +41,7 @@ TEST(GradeTable, IsTheMeanOverAllStarts) {
       right += answer && loss == 0.0 ? 1.0 : 0.0;
       regret += loss;
     }
-    const auto n = static_cast<double>(atlas.num_demos());
+    const auto n = static_cast<double>(atlas.num_states());
     EXPECT_NEAR(table.all(PolicyCellIndex{cell}).share_right, right / n, 1e-9) << cell;
     EXPECT_NEAR(table.all(PolicyCellIndex{cell}).regret, regret / n, 1e-9) << cell;
   }

@@ -49,7 +49,7 @@ TEST_P(Indifference, WeightsOfThePolicysClassActOptimally) {
   RandomStream random{31};
   for (int i = 0; i < 12; ++i) {
     const auto cell = atlas.tables().cells().locate(bec->sample(random));
-    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       const auto answer = atlas.tables().answer(demo, cell);
       ASSERT_TRUE(answer.has_value());
       ASSERT_EQ(sign_of_dot(weights, atlas.feature_counts(demo) - *answer), 0);

@@ -74,7 +74,7 @@ Predictions predictions_within(const Atlas& atlas, const ConstraintSet& set, std
   double total = 0.0;
   for (Eigen::Index i = 0; i < people.cols(); ++i) {
     const auto cell = behaviours.locate(people.col(i));
-    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       if (!atlas.is_candidate(demo)) continue;
       const auto answer = behaviours.answer(demo, cell);
       if (!answer) continue;

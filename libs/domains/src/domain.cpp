@@ -25,7 +25,7 @@ std::int64_t expectation_scale(double largest_feature) {
   throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
 }
 
-[[noreturn]] void refuse_start(DemoId demo, const char* function) {
+[[noreturn]] void refuse_start(StartId demo, const char* function) {
   throw std::invalid_argument{std::string{function} + ": there is no start state " +
                               std::to_string(demo.start.value())};
 }
@@ -51,12 +51,12 @@ const Mdp& mdp_of(const Domain::Data& data, MdpIndex m, const char* function) {
 
 // Called in inner loops, so what it rarely does is elsewhere.
 template <typename Family>
-void check_start(const Family& family, DemoId demo, const char* function) {
+void check_start(const Family& family, StartId demo, const char* function) {
   if (demo.mdp.value() >= family.members.size()) refuse_mdp(demo.mdp, function);
   if (demo.start.value() >= family.members[demo.mdp.value()].mdp.num_states()) refuse_start(demo, function);
 }
 
-std::size_t row_of(const GridFamily& grid, DemoId demo) {
+std::size_t row_of(const GridFamily& grid, StartId demo) {
   return grid.first_state[demo.mdp.value()] + demo.start.value();
 }
 
@@ -180,13 +180,13 @@ std::vector<OptionalGroup> Domain::optional_groups() const {
 
 namespace {
 
-int complexity_of(const GridFamily& grid, DemoId demo) {
+int complexity_of(const GridFamily& grid, StartId demo) {
   return grid.members[demo.mdp.value()].num_toggled + grid.num_stations[row_of(grid, demo)];
 }
 
-int complexity_of(const ExplicitFamily&, DemoId) { return 0; }
+int complexity_of(const ExplicitFamily&, StartId) { return 0; }
 
-int dissimilarity_of(const GridFamily& grid, DemoId a, DemoId b) {
+int dissimilarity_of(const GridFamily& grid, StartId a, StartId b) {
   const std::size_t row_a = row_of(grid, a);
   const std::size_t row_b = row_of(grid, b);
   const std::size_t common = std::min<std::size_t>(grid.num_digits[row_a], grid.num_digits[row_b]);
@@ -200,7 +200,7 @@ int dissimilarity_of(const GridFamily& grid, DemoId a, DemoId b) {
   return 2 * moved + std::popcount(toggled) + std::abs(stations);
 }
 
-int dissimilarity_of(const ExplicitFamily& model, DemoId a, DemoId b) {
+int dissimilarity_of(const ExplicitFamily& model, StartId a, StartId b) {
   const ExplicitMember& member_a = model.members[a.mdp.value()];
   const ExplicitMember& member_b = model.members[b.mdp.value()];
   const std::size_t num_variables = model.variables.size();
@@ -218,7 +218,7 @@ int dissimilarity_of(const ExplicitFamily& model, DemoId a, DemoId b) {
 
 }  // namespace
 
-int Domain::complexity(DemoId demo) const {
+int Domain::complexity(StartId demo) const {
   return std::visit(
       [&](const auto& family) {
         check_start(family, demo, "Domain::complexity");
@@ -227,7 +227,7 @@ int Domain::complexity(DemoId demo) const {
       data_->family);
 }
 
-int Domain::dissimilarity(DemoId a, DemoId b) const {
+int Domain::dissimilarity(StartId a, StartId b) const {
   return std::visit(
       [&](const auto& family) {
         check_start(family, a, "Domain::dissimilarity");

@@ -182,7 +182,7 @@ TEST_P(DomainLaws, VariantsCountUpWithTheLastBitFastest) {
 
 // The documented formula over digits that the test collects itself.
 TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
-  const auto digits = [&](DemoId demo) {
+  const auto digits = [&](StartId demo) {
     const GridState s = domain_.map()->state(demo.mdp, demo.start);
     std::vector<int> list{s.robot.x, s.robot.y};
     for (std::size_t i = 0; i < s.items.size(); ++i) {
@@ -199,14 +199,14 @@ TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
   for (std::size_t i = 0; i < 400; ++i) {
     const MdpIndex ma{i * 7919 % domain_.num_mdps()};
     const MdpIndex mb{i * 104'729 % domain_.num_mdps()};
-    const DemoId a{ma, StateIndex{i * 31 % domain_.mdp(ma).num_states()}};
-    const DemoId b{mb, StateIndex{i * 57 % domain_.mdp(mb).num_states()}};
+    const StartId a{ma, StateIndex{i * 31 % domain_.mdp(ma).num_states()}};
+    const StartId b{mb, StateIndex{i * 57 % domain_.mdp(mb).num_states()}};
     const auto da = digits(a);
     const auto db = digits(b);
     int expected = 0;
     for (std::size_t k = 0; k < std::min(da.size(), db.size()); ++k) expected += 2 * std::abs(da[k] - db[k]);
     for (std::size_t k = 0; k < toggled(ma).size(); ++k) expected += toggled(ma)[k] != toggled(mb)[k] ? 1 : 0;
-    const auto stations = [&](DemoId d) {
+    const auto stations = [&](StartId d) {
       return static_cast<int>(domain_.map()->state(d.mdp, d.start).stations.size());
     };
     expected += std::abs(stations(a) - stations(b));
@@ -217,10 +217,10 @@ TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
 }
 
 TEST_P(DomainLaws, PicturesAreOfStartsThatExist) {
-  const DemoId good{MdpIndex{0}, StateIndex{0}};
-  const DemoId no_world{MdpIndex{domain_.num_mdps()}, StateIndex{0}};
-  const DemoId no_start{MdpIndex{0}, StateIndex{domain_.mdp(MdpIndex{0}).num_states()}};
-  for (const DemoId bad : {no_world, no_start}) {
+  const StartId good{MdpIndex{0}, StateIndex{0}};
+  const StartId no_world{MdpIndex{domain_.num_mdps()}, StateIndex{0}};
+  const StartId no_start{MdpIndex{0}, StateIndex{domain_.mdp(MdpIndex{0}).num_states()}};
+  for (const StartId bad : {no_world, no_start}) {
     EXPECT_THROW((void)domain_.complexity(bad), std::invalid_argument);
     EXPECT_THROW((void)domain_.dissimilarity(bad, good), std::invalid_argument);
     EXPECT_THROW((void)domain_.dissimilarity(good, bad), std::invalid_argument);

@@ -96,8 +96,8 @@ TEST(Thinning, KeepsWhatAWorldIs) {
       ASSERT_EQ(some.map()->find_state(m, some.map()->state(m, s)), s);
       ASSERT_EQ(some.complexity({m, s}), all.complexity({same, s}));
     }
-    const DemoId here{m, StateIndex{0}};
-    const DemoId there{MdpIndex{some.num_mdps() - 1}, StateIndex{3}};
+    const StartId here{m, StateIndex{0}};
+    const StartId there{MdpIndex{some.num_mdps() - 1}, StateIndex{3}};
     EXPECT_EQ(some.dissimilarity(here, there),
               all.dissimilarity({same, StateIndex{0}}, {MdpIndex{all.num_mdps() - 1}, StateIndex{3}}));
     EXPECT_EQ(some.map()->content(m, {3, 1}).terrain, all.map()->content(same, {3, 1}).terrain);

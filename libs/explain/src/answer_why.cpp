@@ -30,7 +30,7 @@ std::string Answerer::why_in_words() const {
   return text + scene_.context() + "?";
 }
 
-void Answerer::why_at(DemoIndex demo) {
+void Answerer::why_at(StartIndex demo) {
   const auto [world, start] = atlas_.id(demo);
   if (question_.happening) scene_.check_possible(demo, *question_.happening);
   if (question_.instead) scene_.check_possible(demo, *question_.instead);
@@ -47,7 +47,7 @@ void Answerer::why_at(DemoIndex demo) {
   conclude(demo, says, question_.instead ? scene_.contrast_to(demo, *question_.instead, true) : scene_.best_step(demo));
 }
 
-void Answerer::why_path(DemoIndex demo) {
+void Answerer::why_path(StartIndex demo) {
   const auto number = atlas_.id(demo).mdp;
   const auto& asked = question_.happening ? *question_.happening : *question_.instead;
   if (!question_.happening) std::swap(question_.happening, question_.instead);  // look_at() takes the happening
@@ -61,7 +61,7 @@ void Answerer::why_path(DemoIndex demo) {
   conclude(demo, what, scene_.contrast_to(demo, asked, !does), nothing_else(number, asked, !does));
 }
 
-void Answerer::conclude(DemoIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
+void Answerer::conclude(StartIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
                         const std::string& nothing) {
   reply_.text = first_upper(says) + "; " + because(contrast, nothing) + ".";
   show(demo, because(contrast, says), contrast);
@@ -107,12 +107,12 @@ void Answerer::how_much() {
   reply_.text += ".";
 }
 
-std::optional<DemoIndex> Answerer::demonstration_of(const HalfSpace& constraint) const {
+std::optional<StartIndex> Answerer::demonstration_of(const HalfSpace& constraint) const {
   const auto number = atlas_.constraints().find(constraint);
   if (!number) return std::nullopt;
-  std::optional<DemoIndex> best;
+  std::optional<StartIndex> best;
   std::size_t least = 0;
-  for (DemoIndex demo{0}; demo.value() < atlas_.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
     if (!atlas_.is_candidate(demo) || !atlas_.one_step(demo).contains(*number)) continue;
     const auto length = atlas_.path(demo).size();
     if (best && least <= length) continue;

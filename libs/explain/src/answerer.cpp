@@ -76,7 +76,7 @@ std::string Answerer::does(const Happening& happening, bool negated) const {
   return verb.empty() ? "does " + scene_.name_of(happening) + " " + no + "happen" : "does it " + no + verb;
 }
 
-Answerer::World Answerer::look_at(std::optional<DemoIndex> start) const {
+Answerer::World Answerer::look_at(std::optional<StartIndex> start) const {
   World world{start, false, std::nullopt, std::nullopt};
   if (!start) return world;
   world.step = scene_.step_of(atlas_.id(*start).mdp, atlas_.trajectory(*start), *question_.happening);
@@ -152,7 +152,7 @@ std::string Answerer::detour(const Contrast& contrast) const {
   return text;
 }
 
-void Answerer::show(DemoIndex demo, std::string text, const std::optional<Contrast>& contrast,
+void Answerer::show(StartIndex demo, std::string text, const std::optional<Contrast>& contrast,
                     std::optional<std::size_t> step) {
   Example example{demo, atlas_.trajectory(demo), std::move(text), std::nullopt, step};
   if (contrast) {

@@ -49,14 +49,14 @@ class Answerer {
 
   // How it goes in one world: whether it happens, at which step of the path shown, and with which chance.
   struct World {
-    std::optional<DemoIndex> start;   // nothing: the robot is never there
+    std::optional<StartIndex> start;  // nothing: the robot is never there
     bool happens = false;             // or can happen
     std::optional<std::size_t> step;  // of the path shown
     std::optional<double> chance;     // where chance has a part in it
     [[nodiscard]] Happens how() const { return !happens ? Happens::kNo : chance ? Happens::kMaybe : Happens::kYes; }
   };
 
-  [[nodiscard]] World look_at(std::optional<DemoIndex> start) const;
+  [[nodiscard]] World look_at(std::optional<StartIndex> start) const;
 
   // ", with a chance of 18 %", "... of at most 18 %"; nothing where it is certain.
   [[nodiscard]] static std::string chance_text(const World& world, bool at_most = false);
@@ -74,7 +74,7 @@ class Answerer {
   // What a detour would add and leave out.
   [[nodiscard]] std::string detour(const Contrast& contrast) const;
 
-  void show(DemoIndex demo, std::string text, const std::optional<Contrast>& contrast = std::nullopt,
+  void show(StartIndex demo, std::string text, const std::optional<Contrast>& contrast = std::nullopt,
             std::optional<std::size_t> step = std::nullopt);
 
   // --- when -------------------------------------------------------------------
@@ -119,7 +119,7 @@ class Answerer {
   struct Place {
     std::size_t worlds = 0;   // in which it does (not)
     std::size_t visited = 0;  // worlds in which the robot comes by
-    DemoIndex demo;
+    StartIndex demo;
     std::size_t step = 0;
     std::string text;  // "at (2,1)"
   };
@@ -138,12 +138,12 @@ class Answerer {
   [[nodiscard]] std::string why_in_words() const;
 
   // About one step.
-  void why_at(DemoIndex demo);
+  void why_at(StartIndex demo);
 
   // About the path from the map's start.
-  void why_path(DemoIndex demo);
+  void why_path(StartIndex demo);
 
-  void conclude(DemoIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
+  void conclude(StartIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
                 const std::string& nothing = "it has no other choice");
 
   // --- what -------------------------------------------------------------------
@@ -178,7 +178,7 @@ class Answerer {
   void show_why_true(const HalfSpace& said, const std::vector<HalfSpace>& known);
 
   // The shortest demonstration that conveys a constraint.
-  [[nodiscard]] std::optional<DemoIndex> demonstration_of(const HalfSpace& constraint) const;
+  [[nodiscard]] std::optional<StartIndex> demonstration_of(const HalfSpace& constraint) const;
 
   const Atlas& atlas_;
   const Domain& domain_;

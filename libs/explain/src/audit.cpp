@@ -30,7 +30,7 @@ class Simplest {
  public:
   explicit Simplest(const Atlas& atlas) : atlas_{atlas} {}
 
-  void offer(DemoIndex demo, bool is_new, std::size_t besides) {
+  void offer(StartIndex demo, bool is_new, std::size_t besides) {
     const Rank rank{!is_new, besides, atlas_.domain().complexity(atlas_.id(demo))};
     if (best_ && rank > rank_) return;
     if (best_ && rank == rank_) {
@@ -41,7 +41,7 @@ class Simplest {
     rank_ = rank;
     best_ = demo;
   }
-  [[nodiscard]] std::optional<DemoIndex> best() const { return best_; }
+  [[nodiscard]] std::optional<StartIndex> best() const { return best_; }
 
  private:
   struct Rank {
@@ -50,11 +50,11 @@ class Simplest {
     int complexity = 0;
     friend auto operator<=>(const Rank&, const Rank&) = default;
   };
-  [[nodiscard]] std::size_t length(DemoIndex demo) const { return atlas_.trajectory(demo).actions.size(); }
+  [[nodiscard]] std::size_t length(StartIndex demo) const { return atlas_.trajectory(demo).actions.size(); }
 
   const Atlas& atlas_;
   Rank rank_;  // of best_
-  std::optional<DemoIndex> best_;
+  std::optional<StartIndex> best_;
 };
 
 }  // namespace
@@ -298,7 +298,7 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
                                    std::span<const ObservedPeriod> periods, LikelyMisconception& misconception) {
   const auto& atlas = cache_->atlas();
   auto& behaviours = cache_->behaviours();
-  std::vector<DemoIndex> shown;
+  std::vector<StartIndex> shown;
   for (const auto& period : periods) {
     for (const auto& demonstration : period.demonstrations) shown.push_back(demonstration.demo);
   }
@@ -312,7 +312,7 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   const auto& lessons = atlas.knowledge_components()[component];
   const auto conveyed = behaviours.conveyed_by_class(lessons, people);
   Simplest simplest{atlas};
-  for (const auto c : lessons.demo_classes) {
+  for (const auto c : lessons.start_classes) {
     const auto set = conveyed.set(c);
     if (!set.contains(wanted)) continue;
     for (const auto demo : atlas.members(c)) {
@@ -325,10 +325,10 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   if (contrast) misconception.reason = reason(atlas, *contrast);
 }
 
-std::optional<DemoIndex> Auditor::choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
-                                              std::span<const ObservedPeriod> periods) const {
+std::optional<StartIndex> Auditor::choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
+                                               std::span<const ObservedPeriod> periods) const {
   const auto& atlas = cache_->atlas();
-  std::vector<DemoIndex> known;
+  std::vector<StartIndex> known;
   for (const auto& period : periods) {
     for (const auto& test : period.tests) known.push_back(test.demo);
     for (const auto& demonstration : period.demonstrations) known.push_back(demonstration.demo);

@@ -17,7 +17,7 @@ namespace kith {
 namespace {
 
 // Weights under which exactly the paths with these feature counts are best.
-IntegerVector weights_that_choose(const Atlas& atlas, DemoIndex demo, const IntegerVector& vertex) {
+IntegerVector weights_that_choose(const Atlas& atlas, StartIndex demo, const IntegerVector& vertex) {
   const auto vertices = atlas.tables().coverage_set(demo);
   if (vertex == atlas.feature_counts(demo) || std::find(vertices.begin(), vertices.end(), vertex) == vertices.end()) {
     throw std::invalid_argument{"contrast_with: the vertex is none of the coverage set, or the robot's own"};
@@ -35,7 +35,7 @@ Int128 squared_length(const IntegerVector& v) { return dot(v, v); }
 
 }  // namespace
 
-Contrast contrast_with(const Atlas& atlas, DemoIndex demo, std::size_t from, const IntegerVector& vertex) {
+Contrast contrast_with(const Atlas& atlas, StartIndex demo, std::size_t from, const IntegerVector& vertex) {
   const auto robot = atlas.trajectory(demo);
   if (from >= robot.actions.size()) throw std::invalid_argument{"contrast_with: the path is shorter"};
   const auto world = atlas.id(demo).mdp;
@@ -114,7 +114,7 @@ bool is_detour(const Domain& domain, const Contrast& contrast) {
 namespace {
 
 // With the path of somebody, as the coverage sets know them.
-std::optional<Contrast> vertex_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+std::optional<Contrast> vertex_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   const auto path = atlas.path(demo);
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto& robot = atlas.feature_counts(path[t]);
@@ -129,7 +129,7 @@ std::optional<Contrast> vertex_for(const Atlas& atlas, DemoIndex demo, const Hal
 }
 
 // With one other action.
-std::optional<Contrast> deviation_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+std::optional<Contrast> deviation_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   const auto path = atlas.path(demo);
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto [world, s] = atlas.id(path[t]);
@@ -150,7 +150,7 @@ std::optional<Contrast> deviation_for(const Atlas& atlas, DemoIndex demo, const 
 
 }  // namespace
 
-std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+std::optional<Contrast> contrast_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   return atlas.find_tables() ? vertex_for(atlas, demo, constraint) : deviation_for(atlas, demo, constraint);
 }
 
@@ -172,7 +172,7 @@ std::size_t steps_together(const Mdp& mdp, const Trajectory& robot, std::size_t 
 }
 
 // Beside the path that somebody with the given weights expects from step `from` on.
-std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, DemoIndex demo, std::size_t from,
+std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, StartIndex demo, std::size_t from,
                                              const Direction& weights, const IntegerVector& answer) {
   const Atlas& atlas = behaviours.atlas();
   const auto world = atlas.id(demo).mdp;
@@ -197,12 +197,12 @@ std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, DemoI
 
 }  // namespace
 
-std::optional<Contrast> contrast_for(Behaviours& behaviours, DemoIndex demo, const HalfSpace& constraint,
+std::optional<Contrast> contrast_for(Behaviours& behaviours, StartIndex demo, const HalfSpace& constraint,
                                      std::span<const PolicyCellIndex> people) {
   const Atlas& atlas = behaviours.atlas();
   if (atlas.find_tables()) return contrast_for(atlas, demo, constraint);
   std::size_t from = 0;
-  for (const DemoIndex here : atlas.path(demo)) {
+  for (const StartIndex here : atlas.path(demo)) {
     for (const PolicyCellIndex person : people) {
       const auto answer = behaviours.answer(here, person);
       if (!answer) continue;

@@ -125,7 +125,7 @@ class CurriculumMaker {
             std::move(flip), runs_from(shown.demo), {}};
   }
 
-  [[nodiscard]] std::vector<PolicyRun> runs_from(DemoIndex demo) const {
+  [[nodiscard]] std::vector<PolicyRun> runs_from(StartIndex demo) const {
     auto random = RandomStream{options_.seed}.split("runs").split(demo.value());
     return several_runs(atlas_, demo, options_.runs, random);
   }
@@ -187,8 +187,8 @@ class CurriculumMaker {
       for (const auto& shown : component.demonstrations) is_seen[atlas_.id(shown.demo).mdp.value()] = true;
       for (const auto& test : component.tests) is_seen[atlas_.id(test.demo).mdp.value()] = true;
     }
-    std::vector<DemoIndex> starts;
-    for (DemoIndex demo{0}; demo.value() < atlas_.num_demos(); ++demo) {
+    std::vector<StartIndex> starts;
+    for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
       if (atlas_.is_candidate(demo) && !is_seen[atlas_.id(demo).mdp.value()]) starts.push_back(demo);
     }
     auto random = RandomStream{options_.seed}.split("fresh");
@@ -243,7 +243,7 @@ void require_something_to_teach(const Atlas& atlas) {
     throw nothing_to_teach(atlas, "in every world, everybody who expects the robot to finish predicts the same path");
   }
   TeachingCache cache{atlas};
-  const VisitedDemos nothing{atlas.num_demos()};
+  const VisitedStarts nothing{atlas.num_states()};
   for (const auto& component : atlas.knowledge_components()) {
     Unit unit{{}, domain.prior()};
     complete_unit(cache, unit, component, {}, nothing, 1, RandomStream{0});

@@ -20,7 +20,7 @@ Trajectory first_steps(const Trajectory& path, std::size_t n) {
 
 }  // namespace
 
-Contrast beside(const Atlas& atlas, DemoIndex demo, const Departure& other) {
+Contrast beside(const Atlas& atlas, StartIndex demo, const Departure& other) {
   Contrast result;
   result.demo = demo;
   result.robot = atlas.trajectory(demo);
@@ -33,7 +33,7 @@ Contrast beside(const Atlas& atlas, DemoIndex demo, const Departure& other) {
   return result;
 }
 
-std::optional<Contrast> deviation(const Atlas& atlas, DemoIndex demo, std::size_t at, ActionIndex action) {
+std::optional<Contrast> deviation(const Atlas& atlas, StartIndex demo, std::size_t at, ActionIndex action) {
   const auto world = atlas.id(demo).mdp;
   const auto& mdp = atlas.domain().mdp(world);
   const auto s = atlas.trajectory(demo).states.at(at);

@@ -16,18 +16,19 @@ struct Departure {
 };
 
 // The robot's path and the other one.
-[[nodiscard]] Contrast beside(const Atlas& atlas, DemoIndex demo, const Departure& other);
+[[nodiscard]] Contrast beside(const Atlas& atlas, StartIndex demo, const Departure& other);
 
 // What follows if the robot took another action at one state of its path and then did its best again.
 //
 // The counts differ by what is expected from that state on; where chance has a part the paths are the likeliest ones.
 // Nothing if the state has no such action.
-[[nodiscard]] std::optional<Contrast> deviation(const Atlas& atlas, DemoIndex demo, std::size_t at, ActionIndex action);
+[[nodiscard]] std::optional<Contrast> deviation(const Atlas& atlas, StartIndex demo, std::size_t at,
+                                                ActionIndex action);
 
 // The best of them for the robot among those that `admits` accepts, at step `first` of its path or at a later one
 // before `end`.
 template <typename Predicate>
-[[nodiscard]] std::optional<Contrast> best_deviation(const Atlas& atlas, DemoIndex demo, std::size_t first,
+[[nodiscard]] std::optional<Contrast> best_deviation(const Atlas& atlas, StartIndex demo, std::size_t first,
                                                      std::size_t end, const Predicate& admits) {
   const auto& weights = atlas.domain().weights().integer;
   const auto path = atlas.trajectory(demo);

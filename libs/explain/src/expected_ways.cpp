@@ -7,7 +7,7 @@
 
 namespace kith {
 
-std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, DemoIndex demo, std::size_t n) {
+std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, StartIndex demo, std::size_t n) {
   const Eigen::MatrixXd people = cover(behaviours.atlas().prior_cone(), n, behaviours.atlas().feature_order());
   std::map<IntegerVector, ExpectedWay> by_counts;
   double all = 0.0;

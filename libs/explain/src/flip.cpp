@@ -7,7 +7,7 @@
 
 namespace kith {
 
-std::optional<DemoIndex> same_start(const Atlas& atlas, DemoIndex demo, MdpIndex world) {
+std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex demo, MdpIndex world) {
   const auto& domain = atlas.domain();
   const auto map = domain.map();
   if (!map) return std::nullopt;
@@ -44,7 +44,7 @@ std::optional<DemoIndex> same_start(const Atlas& atlas, DemoIndex demo, MdpIndex
 namespace {
 
 // The robot's path in the other world, if it decides there as the alternative does.
-std::optional<Trajectory> flipped_path(const Atlas& atlas, const Contrast& contrast, DemoIndex start) {
+std::optional<Trajectory> flipped_path(const Atlas& atlas, const Contrast& contrast, StartIndex start) {
   const auto [world, first] = atlas.id(start);
   detail::Walk walk{atlas, world, first};
   for (std::size_t t = 0; t < contrast.decisive; ++t) {

@@ -99,7 +99,7 @@ class WorldMaker {
   [[nodiscard]] std::vector<MdpIndex> nearest_first() const {
     constexpr std::size_t kFar = 1000;
     std::vector<std::size_t> besides(domain_.num_mdps(), kFar);
-    for (DemoIndex demo{0}; demo.value() < atlas_.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
       if (!atlas_.is_candidate(demo)) continue;
       const auto half_spaces = atlas_.constraints().half_spaces(atlas_.one_step(demo));
       const bool conveys = std::find(half_spaces.begin(), half_spaces.end(), constraint_) != half_spaces.end();

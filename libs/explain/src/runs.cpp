@@ -63,7 +63,7 @@ class Runner {
 
 }  // namespace
 
-std::vector<PolicyRun> several_runs(const Atlas& atlas, DemoIndex start, std::size_t n, RandomStream& random) {
+std::vector<PolicyRun> several_runs(const Atlas& atlas, StartIndex start, std::size_t n, RandomStream& random) {
   const auto id = atlas.id(start);
   Runner runner{atlas, id.mdp};
   std::vector<PolicyRun> runs;

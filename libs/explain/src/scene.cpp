@@ -28,7 +28,7 @@ std::string Scene::context() const {
   return text;
 }
 
-std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
+std::optional<StartIndex> Scene::start_in(MdpIndex world) const {
   const auto initial = domain_.initial_state(world);
   if (question_.state) return state_called(world, *question_.state);
   if (!question_.cell) return atlas_.index({world, initial});
@@ -59,14 +59,14 @@ std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
   return std::nullopt;
 }
 
-std::optional<DemoIndex> Scene::state_called(MdpIndex world, const std::string& name) const {
+std::optional<StartIndex> Scene::state_called(MdpIndex world, const std::string& name) const {
   for (StateIndex s{0}; s.value() < domain_.mdp(world).num_states(); ++s) {
     if (domain_.state_name(world, s) == name) return atlas_.index({world, s});
   }
   return std::nullopt;
 }
 
-DemoIndex Scene::needed_start(MdpIndex world) const {
+StartIndex Scene::needed_start(MdpIndex world) const {
   const auto start = start_in(world);
   if (start) return *start;
   if (question_.state) {
@@ -98,7 +98,7 @@ std::optional<std::size_t> Scene::step_of(MdpIndex world, const Trajectory& path
   return std::nullopt;
 }
 
-std::optional<Contrast> Scene::contrast_to(DemoIndex demo, const Happening& happening, bool happens) const {
+std::optional<Contrast> Scene::contrast_to(StartIndex demo, const Happening& happening, bool happens) const {
   const auto id = atlas_.id(demo);
   const auto world = id.mdp;  // no structured binding, which clang 14 does not let a lambda capture
   const auto start = id.start;
@@ -131,7 +131,7 @@ std::optional<Contrast> Scene::contrast_to(DemoIndex demo, const Happening& happ
   return any_best_way(demo, admits);
 }
 
-std::optional<double> Scene::chance_of(DemoIndex demo, const Happening& happening) const {
+std::optional<double> Scene::chance_of(StartIndex demo, const Happening& happening) const {
   constexpr std::size_t kMostStates = 20'000;
   constexpr std::size_t kMostSweeps = 10'000;
   constexpr double kAccuracy = 1e-9;
@@ -191,7 +191,7 @@ std::vector<double> other_weights(double own, bool more) {
 
 }  // namespace
 
-std::optional<Contrast> Scene::way_of_others(DemoIndex demo, const Happening& happening, bool happens) const {
+std::optional<Contrast> Scene::way_of_others(StartIndex demo, const Happening& happening, bool happens) const {
   if (atlas_.find_tables() || !domain_.is_exact()) return std::nullopt;
   const Behaviours behaviours{atlas_};
   const auto world = atlas_.id(demo).mdp;
@@ -227,12 +227,12 @@ std::string Scene::spot_text(MdpIndex world, StateIndex s) const {
               : "in state '" + domain_.state_name(world, s) + "'";
 }
 
-std::string Scene::place_text(DemoIndex demo) const {
+std::string Scene::place_text(StartIndex demo) const {
   const auto [world, start] = atlas_.id(demo);
   return spot_text(world, start) + " in " + name_of(world);
 }
 
-void Scene::check_possible(DemoIndex demo, const Happening& happening) const {
+void Scene::check_possible(StartIndex demo, const Happening& happening) const {
   const auto [world, start] = atlas_.id(demo);
   for (const auto& choice : domain_.mdp(world).choices(start)) {
     if (is_at(world, start, choice.action, happening)) return;
@@ -241,7 +241,7 @@ void Scene::check_possible(DemoIndex demo, const Happening& happening) const {
        "it would change nothing there, or is not allowed");
 }
 
-std::optional<Contrast> Scene::best_step(DemoIndex demo) const {
+std::optional<Contrast> Scene::best_step(StartIndex demo) const {
   auto best = best_deviation(atlas_, demo, 0, 1, [&](const Contrast& other) { return !is_detour(domain_, other); });
   return best ? best : best_deviation(atlas_, demo, 0, 1, [](const Contrast&) { return true; });
 }

@@ -23,45 +23,45 @@ class Scene {
   [[nodiscard]] std::string spot() const;
   // Where the question is about, in one world: the map's start, or the robot at the cell and all things as at first;
   // failing that as they are when its path from the start comes by, or in the first state with the robot there.
-  [[nodiscard]] std::optional<DemoIndex> start_in(MdpIndex world) const;
-  [[nodiscard]] DemoIndex needed_start(MdpIndex world) const;
+  [[nodiscard]] std::optional<StartIndex> start_in(MdpIndex world) const;
+  [[nodiscard]] StartIndex needed_start(MdpIndex world) const;
   [[nodiscard]] bool is_at(MdpIndex world, StateIndex s, ActionIndex a, const Happening& happening) const;
   // The step of a path at which it happens. With a cell only the first step counts.
   [[nodiscard]] std::optional<std::size_t> step_of(MdpIndex world, const Trajectory& path,
                                                    const Happening& happening) const;
   // The chance that it happens at all from there on (with a cell: with the next step) under the robot's policy, in [0,
   // 1]; 0 or 1 where chance has no part in it. Nothing where that takes too long.
-  [[nodiscard]] std::optional<double> chance_of(DemoIndex demo, const Happening& happening) const;
+  [[nodiscard]] std::optional<double> chance_of(StartIndex demo, const Happening& happening) const;
   // The best path on which it happens, or does not (where chance has a part: on average more or less often), in
   // contrast to the robot's; one that is no detour if there is any.
-  [[nodiscard]] std::optional<Contrast> contrast_to(DemoIndex demo, const Happening& happening, bool happens) const;
+  [[nodiscard]] std::optional<Contrast> contrast_to(StartIndex demo, const Happening& happening, bool happens) const;
   // "world 3", or "world 3 (visiting hours)" where it has a name.
   [[nodiscard]] std::string name_of(MdpIndex world) const;
   // "at (2,1)", "in state 'on the ice'".
   [[nodiscard]] std::string spot_text(MdpIndex world, StateIndex s) const;
-  [[nodiscard]] std::string place_text(DemoIndex demo) const;
-  void check_possible(DemoIndex demo, const Happening& happening) const;
+  [[nodiscard]] std::string place_text(StartIndex demo) const;
+  void check_possible(StartIndex demo, const Happening& happening) const;
   // The best other step, followed by what the robot would do.
-  [[nodiscard]] std::optional<Contrast> best_step(DemoIndex demo) const;
+  [[nodiscard]] std::optional<Contrast> best_step(StartIndex demo) const;
   // The best other way among those that `admits` accepts: what somebody could expect, or without tables one other step
   // anywhere on the robot's path.
   template <typename Predicate>
-  [[nodiscard]] std::optional<Contrast> any_best_way(DemoIndex demo, const Predicate& admits) const {
+  [[nodiscard]] std::optional<Contrast> any_best_way(StartIndex demo, const Predicate& admits) const {
     constexpr auto kAnywhere = std::numeric_limits<std::size_t>::max();
     return atlas_.find_tables() ? best_contrast(atlas_, demo, admits)
                                 : best_deviation(atlas_, demo, 0, kAnywhere, admits);
   }
   // The same among those that are no detour.
   template <typename Predicate>
-  [[nodiscard]] std::optional<Contrast> best_way(DemoIndex demo, const Predicate& admits) const {
+  [[nodiscard]] std::optional<Contrast> best_way(StartIndex demo, const Predicate& admits) const {
     return any_best_way(demo, [&](const Contrast& other) { return !is_detour(domain_, other) && admits(other); });
   }
 
  private:
   // Without tables: the way of people who are like the robot, except that the feature means just so much more (or less)
   // to them that it happens more often (or less).
-  [[nodiscard]] std::optional<Contrast> way_of_others(DemoIndex demo, const Happening& happening, bool happens) const;
-  [[nodiscard]] std::optional<DemoIndex> state_called(MdpIndex world, const std::string& name) const;
+  [[nodiscard]] std::optional<Contrast> way_of_others(StartIndex demo, const Happening& happening, bool happens) const;
+  [[nodiscard]] std::optional<StartIndex> state_called(MdpIndex world, const std::string& name) const;
 
   const Atlas& atlas_;
   const Domain& domain_;

@@ -14,7 +14,7 @@
 namespace kith {
 namespace {
 
-const ConstraintSet& set_for(const Atlas& atlas, DemoIndex demo, Purpose purpose) {
+const ConstraintSet& set_for(const Atlas& atlas, StartIndex demo, Purpose purpose) {
   return purpose == Purpose::kTeach ? atlas.one_step(demo) : atlas.tested_constraints(demo);
 }
 
@@ -155,17 +155,17 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
 
 }  // namespace
 
-bool isolates(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint, Purpose purpose) {
+bool isolates(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose) {
   auto region = atlas.prior_cone();
   return region.clip(atlas.constraints().half_spaces(set_for(atlas, demo, purpose))) &&
          region.minimal_set() == detail::target_facets(atlas.prior_cone(), constraint);
 }
 
-std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
+std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
   const auto target = detail::target_facets(atlas.prior_cone(), constraint);
   Remainders regions{atlas};
-  std::optional<std::tuple<int, std::size_t, DemoIndex>> best;
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  std::optional<std::tuple<int, std::size_t, StartIndex>> best;
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
     const int complexity = atlas.domain().complexity(atlas.id(demo));
@@ -173,13 +173,13 @@ std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace&
     if (!best || candidate < *best) best = candidate;
   }
   if (!best) return std::nullopt;
-  return std::get<DemoIndex>(*best);
+  return std::get<StartIndex>(*best);
 }
 
 NotIsolated why_not_isolated(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
   Remainders regions{atlas};
   NotIsolated why;
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     const auto& facets = regions.facets(set_for(atlas, demo, purpose));
     auto region = atlas.prior_cone();
@@ -213,7 +213,7 @@ std::vector<Isolated> isolated_constraints(const Atlas& atlas) {
     if (place->second.size() != 1) return std::nullopt;
     return place->second.front();
   };
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     if (const auto taught = only_one(atlas.one_step(demo))) ++at(*taught).teaching;
     if (const auto tested = only_one(atlas.tested_constraints(demo))) ++at(*tested).testing;

@@ -36,8 +36,8 @@ IntegerVector counts_of(const Domain& domain, MdpIndex world, const Trajectory& 
 TEST(ContrastWith, FollowsTheRobotAsLongAsItCanAndThenEndsAsTheVertexSays) {
   for (const auto& name : testing::kSmallDomains) {
     const auto& atlas = atlas_of(name);
-    for (std::size_t d = 0; d < atlas.num_demos(); d += 37) {
-      const DemoIndex demo{d};
+    for (std::size_t d = 0; d < atlas.num_states(); d += 37) {
+      const StartIndex demo{d};
       for (const auto& vertex : atlas.tables().coverage_set(demo)) {
         if (vertex == atlas.feature_counts(demo)) continue;
         const auto contrast = contrast_with(atlas, demo, 0, vertex);
@@ -57,7 +57,7 @@ TEST(ContrastWith, FollowsTheRobotAsLongAsItCanAndThenEndsAsTheVertexSays) {
 
 TEST(ContrastWith, RefusesTheRobotsOwnPathAndVectorsOfNobody) {
   const auto& atlas = atlas_of("item-delivery");
-  const DemoIndex demo{0};
+  const StartIndex demo{0};
   EXPECT_THROW(static_cast<void>(contrast_with(atlas, demo, 0, atlas.feature_counts(demo))), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(contrast_with(atlas, demo, 0, {9, 9, 9})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(contrast_with(atlas, demo, 999, atlas.feature_counts(demo))), std::invalid_argument);
@@ -66,10 +66,10 @@ TEST(ContrastWith, RefusesTheRobotsOwnPathAndVectorsOfNobody) {
 TEST(ContrastFor, ConveysTheConstraint) {
   const auto& atlas = atlas_of("item-delivery");
   std::size_t found = 0;
-  for (std::size_t d = 0; d < atlas.num_demos(); d += 53) {
-    for (const auto c : atlas.tables().robot_cell_facets(DemoIndex{d}).members()) {
+  for (std::size_t d = 0; d < atlas.num_states(); d += 53) {
+    for (const auto c : atlas.tables().robot_cell_facets(StartIndex{d}).members()) {
       const auto& constraint = atlas.constraints()[c];
-      const auto contrast = contrast_for(atlas, DemoIndex{d}, constraint);
+      const auto contrast = contrast_for(atlas, StartIndex{d}, constraint);
       if (!contrast) continue;
       ++found;
       EXPECT_EQ(constraint_of(contrast->robot_counts, contrast->alternative_counts), constraint);
@@ -102,7 +102,7 @@ void expect_one_other_action(const Atlas& atlas, const Contrast& contrast) {
 }
 
 // The first step of the robot's path at which one other action conveys the constraint, if any.
-std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   const auto path = atlas.path(demo);
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto [world, s] = atlas.id(path[t]);
@@ -114,7 +114,7 @@ std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, DemoIndex
   return std::nullopt;
 }
 
-void expect_contrast_without_tables(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+void expect_contrast_without_tables(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   const auto& domain = atlas.domain();
   const auto contrast = contrast_for(atlas, demo, constraint);
   ASSERT_TRUE(contrast.has_value());
@@ -137,10 +137,10 @@ void expect_contrast_without_tables(const Atlas& atlas, DemoIndex demo, const Ha
 std::size_t expect_contrasts_without_tables(const Atlas& atlas, std::size_t stride) {
   EXPECT_FALSE(atlas.find_tables());
   std::size_t tried = 0;
-  for (std::size_t d = 0; d < atlas.num_demos(); d += stride) {
-    if (!atlas.is_candidate(DemoIndex{d})) continue;
-    for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(DemoIndex{d}))) {
-      expect_contrast_without_tables(atlas, DemoIndex{d}, constraint);
+  for (std::size_t d = 0; d < atlas.num_states(); d += stride) {
+    if (!atlas.is_candidate(StartIndex{d})) continue;
+    for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(StartIndex{d}))) {
+      expect_contrast_without_tables(atlas, StartIndex{d}, constraint);
       ++tried;
     }
   }
@@ -161,15 +161,15 @@ TEST(ContrastFor, WorksWithSevenFeaturesWithChanceAndWithoutAMap) {
 
 TEST(ContrastFor, IsNothingWhereNoOtherActionConveysTheConstraint) {
   const Atlas atlas{load_domain("item-delivery"), BehaviourSource::kOnDemand};
-  for (std::size_t d = 0; d < atlas.num_demos(); d += 997) {
-    EXPECT_FALSE(contrast_for(atlas, DemoIndex{d}, HalfSpace{IntegerVector{-100, 0, 299}}).has_value());
+  for (std::size_t d = 0; d < atlas.num_states(); d += 997) {
+    EXPECT_FALSE(contrast_for(atlas, StartIndex{d}, HalfSpace{IntegerVector{-100, 0, 299}}).has_value());
   }
 }
 
 TEST(ContrastFor, ComparesWithOneOtherActionWhereNobodyExpectsSuch) {
   const Atlas atlas{load_domain("item-delivery"), BehaviourSource::kOnDemand};
   Behaviours behaviours{atlas};
-  const DemoIndex demo{5000};
+  const StartIndex demo{5000};
   for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(demo))) {
     const auto alone = contrast_for(atlas, demo, constraint);
     const auto contrast = contrast_for(behaviours, demo, constraint, {});
@@ -220,7 +220,7 @@ TEST(IsDetour, HasNothingInItsFavour) {
 TEST(Reason, RefusesContrastsThatTellNothing) {
   const auto& icy = atlas_of(testing::domains_without_tables()[1]);
   Contrast same;
-  same.robot_counts = icy.feature_counts(DemoIndex{0});
+  same.robot_counts = icy.feature_counts(StartIndex{0});
   same.alternative_counts = same.robot_counts;
   EXPECT_FALSE(conveyed_by(icy.domain(), same).has_value());
   EXPECT_THROW(static_cast<void>(reason(icy, same)), std::invalid_argument);
@@ -294,8 +294,8 @@ TEST(NearestFlip, ReallyFlipsAndNoNearerWorldDoes) {
     const auto& atlas = atlas_of(name);
     const auto& domain = atlas.domain();
     std::size_t flips = 0;
-    for (std::size_t d = 0; d < atlas.num_demos(); d += 61) {
-      const auto contrast = best_contrast(atlas, DemoIndex{d}, [](const Contrast&) { return true; });
+    for (std::size_t d = 0; d < atlas.num_states(); d += 61) {
+      const auto contrast = best_contrast(atlas, StartIndex{d}, [](const Contrast&) { return true; });
       if (!contrast) continue;
       const auto flip = nearest_flip(atlas, *contrast);
       const auto here = atlas.id(contrast->demo).mdp;

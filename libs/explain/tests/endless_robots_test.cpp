@@ -109,9 +109,9 @@ TEST(EndlessRobot, AreSaidToMissWhatWouldEndTheirPath) {
   for (const auto& [name, end] : kEnds) {
     const Atlas atlas{discounted_domain(name, 0.3)};
     std::size_t endless = 0;
-    for (std::size_t i = 0; i < atlas.num_demos() && endless < 100; ++i) {
-      const auto world = atlas.id(DemoIndex{i}).mdp;
-      const auto path = atlas.trajectory(DemoIndex{i});
+    for (std::size_t i = 0; i < atlas.num_states() && endless < 100; ++i) {
+      const auto world = atlas.id(StartIndex{i}).mdp;
+      const auto path = atlas.trajectory(StartIndex{i});
       if (!path.repeats_from) {
         EXPECT_EQ(never_in_words(atlas.domain(), world, path), "");
         continue;
@@ -131,13 +131,13 @@ TEST(EndlessRobot, AreSaidToMissWhatWouldEndTheirPath) {
 TEST(EndlessRobot, HaveTheirCycleWrittenOnce) {
   const Atlas atlas{discounted_domain("item-delivery", 0.7)};
   const auto& domain = atlas.domain();
-  for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-    const auto path = atlas.trajectory(DemoIndex{i});
+  for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+    const auto path = atlas.trajectory(StartIndex{i});
     if (!path.repeats_from || *path.repeats_from == 0) continue;
     auto way_in = path.actions, cycle = path.actions;
     way_in.resize(*path.repeats_from);
     cycle.erase(cycle.begin(), cycle.begin() + static_cast<std::ptrdiff_t>(*path.repeats_from));
-    const auto world = atlas.id(DemoIndex{i}).mdp;
+    const auto world = atlas.id(StartIndex{i}).mdp;
     EXPECT_EQ(actions_text(domain, world, path), actions_text(domain, way_in) + ", " + actions_text(domain, cycle) +
                                                      ", and so on: " + never_in_words(domain, world, path));
     return;

@@ -14,7 +14,7 @@ namespace {
 using testing::atlas_of;
 
 // Runs keep to the robot's policy and to outcomes that can follow.
-void expect_possible(const Atlas& atlas, DemoIndex demo, const PolicyRun& run) {
+void expect_possible(const Atlas& atlas, StartIndex demo, const PolicyRun& run) {
   const auto world = atlas.id(demo).mdp;
   const auto& mdp = atlas.domain().mdp(world);
   ASSERT_EQ(run.path.states.front(), atlas.id(demo).start);
@@ -32,17 +32,17 @@ void expect_possible(const Atlas& atlas, DemoIndex demo, const PolicyRun& run) {
 TEST(Runs, AreRunsOfThePolicyAsOutcomesFall) {
   const auto& atlas = atlas_of(testing::slippery_lake("steps", "{ step = -1 }", "1.0"));
   RandomStream random{1}, again{1};
-  const auto runs = several_runs(atlas, DemoIndex{0}, 10, random);
+  const auto runs = several_runs(atlas, StartIndex{0}, 10, random);
   ASSERT_EQ(runs.size(), 10u);
   EXPECT_GT(different_ways(runs).size(), 1u);  // never only the likeliest path
-  for (const auto& run : runs) expect_possible(atlas, DemoIndex{0}, run);
-  const auto same = several_runs(atlas, DemoIndex{0}, 10, again);
+  for (const auto& run : runs) expect_possible(atlas, StartIndex{0}, run);
+  const auto same = several_runs(atlas, StartIndex{0}, 10, again);
   for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_EQ(same[i].path.states, runs[i].path.states);
 }
 
 TEST(Runs, AreLeftOutWhereNothingIsLeftToChance) {
   RandomStream random{1};
-  EXPECT_TRUE(several_runs(atlas_of("item-delivery"), DemoIndex{0}, 10, random).empty());
+  EXPECT_TRUE(several_runs(atlas_of("item-delivery"), StartIndex{0}, 10, random).empty());
 }
 
 TEST(Runs, AreChosenByTheirLength) {
@@ -67,13 +67,13 @@ TEST(Runs, FallAsOftenAsTheModelSays) {
   const auto& domain = atlas.domain();
   RandomStream random{3};
   constexpr std::size_t kRuns = 2000;
-  const auto runs = several_runs(atlas, DemoIndex{0}, kRuns, random);
+  const auto runs = several_runs(atlas, StartIndex{0}, kRuns, random);
   std::size_t falls = 0;
   for (const auto& run : runs) {
     if (run.times[0] > 0) ++falls;
   }
   const double expected =
-      static_cast<double>(atlas.feature_counts(DemoIndex{0})[0]) / static_cast<double>(domain.count_scale());
+      static_cast<double>(atlas.feature_counts(StartIndex{0})[0]) / static_cast<double>(domain.count_scale());
   EXPECT_NEAR(static_cast<double>(falls) / kRuns, expected, 4.0 * 0.5 / std::sqrt(static_cast<double>(kRuns)));
 }
 

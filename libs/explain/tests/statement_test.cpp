@@ -225,7 +225,7 @@ TEST(StatementInTries, FollowsFromThePolicy) {
   const auto known = Cone::intersection(joined(policy, {domain.prior().begin(), domain.prior().end()}));
   ASSERT_TRUE(known.has_value());
   std::size_t tried = 0, said = 0;
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     const auto choices = domain.mdp(atlas.id(demo).mdp).choices(atlas.id(demo).start);
     for (std::size_t c = 0; c < choices.size(); ++c) {
       const auto difference = atlas.feature_counts(demo) - atlas.deviation_counts(demo, c);

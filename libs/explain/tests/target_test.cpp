@@ -30,11 +30,11 @@ TEST(SimplestIsolating, IsTheSimplestOfAllThatConveyExactlyTheConstraint) {
     for (const auto& one : isolated_constraints(atlas)) {
       SCOPED_TRACE(std::string{name} + ": " + described(atlas.domain(), one.constraint));
       std::size_t n = 0;
-      std::optional<DemoIndex> best;
-      const auto rank = [&](DemoIndex demo) {
+      std::optional<StartIndex> best;
+      const auto rank = [&](StartIndex demo) {
         return std::pair{atlas.domain().complexity(atlas.id(demo)), atlas.trajectory(demo).actions.size()};
       };
-      for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+      for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
         if (!same_weights(atlas, atlas.constraints().half_spaces(atlas.one_step(demo)), {one.constraint})) continue;
         ++n;
         if (!best || rank(demo) < rank(*best)) best = demo;

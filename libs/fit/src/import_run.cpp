@@ -38,13 +38,13 @@ struct Seat {
 struct Shown {
   std::int64_t component = 1;
   std::vector<HalfSpace> half_spaces;
-  std::vector<DemoIndex> demonstrations;
+  std::vector<StartIndex> demonstrations;
 };
 
 struct Answered {
   std::int64_t test = 0;
   std::int64_t component = 1;
-  DemoIndex demo;
+  StartIndex demo;
   bool correct = false;
   std::optional<IntegerVector> answer{};
   std::vector<HalfSpace> covered;
@@ -236,7 +236,7 @@ class RunImport {
   }
 
   // Where a demonstration or a test of a row starts, or nothing after complaining.
-  std::optional<DemoIndex> start_of(const std::string& file, const OpenRow& row) {
+  std::optional<StartIndex> start_of(const std::string& file, const OpenRow& row) {
     const auto& domain = atlas_->domain();
     const auto mdp = *row.integer("mdp");
     const auto start = *row.integer("start");
@@ -325,7 +325,7 @@ class RunImport {
     return period;
   }
 
-  void add_answer(LoggedPeriod& period, const Answered& answered, DemoIndex demo) {
+  void add_answer(LoggedPeriod& period, const Answered& answered, StartIndex demo) {
     if (!answered.answer) {  // no answer at all: nothing is known of the weight
       ++num_unanswered_;
       return;

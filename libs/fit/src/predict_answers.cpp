@@ -88,7 +88,7 @@ class AskedWorld {
   }
 
   Atlas atlas_;
-  DemoIndex test_;
+  StartIndex test_;
   std::vector<IntegerVector> paths_;
   std::vector<bool> right_;
 };

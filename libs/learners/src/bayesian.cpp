@@ -36,7 +36,7 @@ KITH_VECTOR_CLONES void exclude_outside(const Eigen::Vector3d& normal, const Par
 
 // The belief's weights, 0 where some test has no finite optimum.
 std::vector<double> weights_with_answers(const Atlas& atlas, const ParticleBelief& belief,
-                                         std::span<const DemoIndex> tests) {
+                                         std::span<const StartIndex> tests) {
   std::vector<double> weights(belief.weights().begin(), belief.weights().end());
   std::vector<HalfSpace> facets;  // of all finite regions; many tests share theirs
   for (const auto test : tests) {
@@ -138,14 +138,14 @@ std::optional<double> BayesianLearner::likelihood(const AnswerEvidence& evidence
   return std::min(consistent_mass(evidence, belief_) / possible, 1.0);
 }
 
-Learner::Response BayesianLearner::answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+Learner::Response BayesianLearner::answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                           std::size_t period) const {
   const auto random = random_.split("answer").split(period);
   return behaviours.atlas().find_tables() ? tabulated_answer(behaviours, tests, random)
                                           : planned_answer(behaviours, tests, random);
 }
 
-Learner::Response BayesianLearner::tabulated_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+Learner::Response BayesianLearner::tabulated_answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                                     RandomStream random) const {
   Response response;
   response.answers.resize(tests.size());
@@ -158,7 +158,7 @@ Learner::Response BayesianLearner::tabulated_answer(Behaviours& behaviours, std:
 }
 
 // Draws until the tests have an answer; a weight without one is not drawn again.
-Learner::Response BayesianLearner::planned_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+Learner::Response BayesianLearner::planned_answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                                   RandomStream random) const {
   Response response;
   std::vector<double> weights(belief_.weights().begin(), belief_.weights().end());
@@ -166,7 +166,7 @@ Learner::Response BayesianLearner::planned_answer(Behaviours& behaviours, std::s
     const std::size_t drawn = categorical(weights, random);
     const auto cell = behaviours.locate(belief_.point(drawn));
     response.answers.clear();
-    for (const DemoIndex test : tests) response.answers.push_back(behaviours.answer(test, cell));
+    for (const StartIndex test : tests) response.answers.push_back(behaviours.answer(test, cell));
     if (std::all_of(response.answers.begin(), response.answers.end(), [](const auto& a) { return a.has_value(); })) {
       response.weights = belief_.point(drawn);
       return response;

@@ -13,14 +13,14 @@ namespace {
 
 // Where the keys of a demonstration lead from another start.
 struct Transfer {
-  IntegerVector counts;           // so far
-  std::optional<DemoIndex> rest;  // where the person's own way goes on; nothing at the end
+  IntegerVector counts;            // so far
+  std::optional<StartIndex> rest;  // where the person's own way goes on; nothing at the end
 };
 
 // Presses the keys of the demonstration one after the other, passing over those that do nothing, until the path ends or
 // there are no more. Where behaviours are not tabulated only the first key is pressed, and the robot's way taken from
 // there; nothing if it does nothing.
-std::optional<Transfer> transferred(const Atlas& atlas, DemoIndex demonstration, DemoIndex test) {
+std::optional<Transfer> transferred(const Atlas& atlas, StartIndex demonstration, StartIndex test) {
   const auto id = atlas.id(test);
   const auto& mdp = atlas.domain().mdp(id.mdp);
   const auto choice_of = [&](StateIndex state, ActionIndex action) -> std::optional<std::size_t> {
@@ -58,11 +58,11 @@ class ImitatingLearner final : public LikeBayesian {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<ImitatingLearner>(*this); }
   [[nodiscard]] bool answers_as_believed() const override { return false; }
 
-  void see(const Atlas& /*atlas*/, std::span<const DemoIndex> demonstrations) override {
+  void see(const Atlas& /*atlas*/, std::span<const StartIndex> demonstrations) override {
     shown_.insert(shown_.end(), demonstrations.begin(), demonstrations.end());
   }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     auto response = person_.answer(behaviours, tests, period);
     if (!response.weights || shown_.empty()) return response;
@@ -108,7 +108,7 @@ class ImitatingLearner final : public LikeBayesian {
 
  private:
   // exp(-distance / temperature) of every demonstration, the nearest having 1.
-  [[nodiscard]] std::vector<double> similarity(const Atlas& atlas, DemoIndex test) const {
+  [[nodiscard]] std::vector<double> similarity(const Atlas& atlas, StartIndex test) const {
     std::vector<double> values;
     for (const auto demo : shown_) {
       values.push_back(static_cast<double>(atlas.domain().dissimilarity(atlas.id(demo), atlas.id(test))));
@@ -128,7 +128,7 @@ class ImitatingLearner final : public LikeBayesian {
 
   double reward_;
   double temperature_;
-  std::vector<DemoIndex> shown_;
+  std::vector<StartIndex> shown_;
 };
 
 constexpr std::array kRewards{0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95};

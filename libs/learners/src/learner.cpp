@@ -14,7 +14,7 @@ double log_likelihood(const Learner& learner, const AnswerEvidence& evidence, do
   return std::log(std::max((1.0 - slip) * *share + slip * evidence.chance(), 1e-300));
 }
 
-std::vector<HalfSpace> conveyed_to(Behaviours& behaviours, Regions& regions, std::span<const DemoIndex> demonstrations,
+std::vector<HalfSpace> conveyed_to(Behaviours& behaviours, Regions& regions, std::span<const StartIndex> demonstrations,
                                    std::span<const Direction> expected) {
   std::vector<PolicyCellIndex> cells;
   for (const auto& weights : expected) cells.push_back(behaviours.locate(weights));

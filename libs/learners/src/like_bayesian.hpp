@@ -32,7 +32,7 @@ class LikeBayesian : public Learner {
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period) override {
     person_.watch(half_spaces, period);
   }
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     return person_.answer(behaviours, tests, period);
   }

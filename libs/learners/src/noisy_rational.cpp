@@ -25,7 +25,7 @@ class NoisyRationalLearner final : public LikeBayesian {
   }
   [[nodiscard]] bool answers_as_believed() const override { return false; }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     auto response = person_.answer(behaviours, tests, period);
     if (!response.weights) return response;
@@ -61,7 +61,7 @@ class NoisyRationalLearner final : public LikeBayesian {
  private:
   // The distinct paths that could be best for somebody, or, where they are not tabulated, one's own and those of some
   // others.
-  [[nodiscard]] std::vector<IntegerVector> paths_at(Behaviours& behaviours, DemoIndex test,
+  [[nodiscard]] std::vector<IntegerVector> paths_at(Behaviours& behaviours, StartIndex test,
                                                     const IntegerVector& own) const {
     if (const auto* tables = behaviours.atlas().find_tables()) return tables->coverage_set(test);
     std::vector<IntegerVector> paths{own};

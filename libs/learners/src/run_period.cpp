@@ -23,7 +23,7 @@ void pass_time(Learner& learner, const Session& session, const PeriodOptions& op
 }
 
 void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options) {
-  std::vector<DemoIndex> demos;
+  std::vector<StartIndex> demos;
   for (const auto& shown : lesson.demonstrations) demos.push_back(shown.demo);
   learner.see(cache.atlas(), demos);
   std::vector<Direction> expected;
@@ -59,7 +59,7 @@ PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& le
   }
   const Lesson& lesson = session.lesson();
   const bool begins = begins_component(session);
-  std::vector<DemoIndex> tests;
+  std::vector<StartIndex> tests;
   for (const auto& test : lesson.tests) tests.push_back(test.demo);
   session.show();
   PeriodOfLearners period;

@@ -12,7 +12,7 @@ namespace kith {
 namespace {
 
 // What a wrong first key leads to: another action at the start, which costs something, and then the robot's way.
-std::vector<IntegerVector> slips_at(const Atlas& atlas, DemoIndex test) {
+std::vector<IntegerVector> slips_at(const Atlas& atlas, StartIndex test) {
   std::vector<IntegerVector> slips;
   const auto id = atlas.id(test);
   const auto& robot = atlas.feature_counts(test);
@@ -23,7 +23,7 @@ std::vector<IntegerVector> slips_at(const Atlas& atlas, DemoIndex test) {
   return slips;
 }
 
-bool is_right_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts) {
+bool is_right_answer(const Atlas& atlas, StartIndex test, const IntegerVector& counts) {
   return judge_path(atlas.domain(), atlas.feature_counts(test), counts).is_right;
 }
 
@@ -37,7 +37,7 @@ class SlippingLearner final : public LikeBayesian {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<SlippingLearner>(*this); }
   [[nodiscard]] bool answers_as_believed() const override { return false; }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     auto response = person_.answer(behaviours, tests, period);
     const auto& atlas = behaviours.atlas();

@@ -131,7 +131,7 @@ TEST(BayesianLearner, AnswersAllTestsFromOneWeightThatHasAnOptimumInAllOfThem) {
   const auto& atlas = item_delivery();
   Behaviours behaviours{atlas};
   const auto learner = make_learner(kNovice);
-  const std::array tests{DemoIndex{10}, DemoIndex{4000}, DemoIndex{9000}};
+  const std::array tests{StartIndex{10}, StartIndex{4000}, StartIndex{9000}};
   for (std::size_t period = 1; period <= 200; ++period) {
     const auto response = learner.answer(behaviours, tests, period);
     ASSERT_TRUE(response.weights.has_value());
@@ -145,7 +145,7 @@ TEST(BayesianLearner, AnswersAllTestsFromOneWeightThatHasAnOptimumInAllOfThem) {
 
 TEST(BayesianLearner, AnswersOfAPeriodDoNotDependOnWhatWasAskedBefore) {
   Behaviours behaviours{item_delivery()};
-  const std::array tests{DemoIndex{10}, DemoIndex{4000}};
+  const std::array tests{StartIndex{10}, StartIndex{4000}};
   const auto learner = make_learner(kNovice);
   const auto fresh = learner.answer(behaviours, tests, 7);
   (void)learner.answer(behaviours, tests, 3);
@@ -161,7 +161,7 @@ TEST(BayesianLearner, HasNoAnswerWhenNoWeightHasAFiniteOptimum) {
   ASSERT_TRUE(likes_steps.has_value());
   const BayesianLearner learner{ParticleBelief{*likes_steps, {}}, kNovice, LikelihoodForm::kDiscontinuous,
                                 RandomStream{3}};
-  const auto response = learner.answer(behaviours, std::array{DemoIndex{0}, DemoIndex{1}}, 1);
+  const auto response = learner.answer(behaviours, std::array{StartIndex{0}, StartIndex{1}}, 1);
   EXPECT_FALSE(response.weights.has_value());
   for (const auto& answer : response.answers) EXPECT_FALSE(answer.has_value());
 }
@@ -172,7 +172,7 @@ TEST(BayesianLearner, WhatIsConveyedToImaginedWeightsHoldsAtTheRobotsWeights) {
   Regions regions{behaviours.constraints()};
   const auto learner = make_learner(kNovice);
   const auto conveyed =
-      conveyed_to(behaviours, regions, std::array{DemoIndex{8000}, DemoIndex{9000}}, learner.imagined_weights(8, 1));
+      conveyed_to(behaviours, regions, std::array{StartIndex{8000}, StartIndex{9000}}, learner.imagined_weights(8, 1));
   EXPECT_FALSE(conveyed.empty());
   for (const auto& half_space : conveyed) {
     EXPECT_GE(sign_of_dot(half_space.normal(), atlas.domain().weights().integer), 0);

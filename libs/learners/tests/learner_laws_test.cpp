@@ -20,7 +20,7 @@ namespace {
 
 using testing::item_delivery;
 
-const std::array kTests{DemoIndex{10}, DemoIndex{4000}, DemoIndex{9000}};
+const std::array kTests{StartIndex{10}, StartIndex{4000}, StartIndex{9000}};
 
 // What can be seen of a person from outside.
 struct State {
@@ -56,7 +56,7 @@ class LearnerLaws : public ::testing::TestWithParam<const LearnerModel*> {
     const auto& bec = item_delivery().policy_bec_half_spaces();
     if (period % 3 == 1) learner.begin_component();
     if (period > 1) learner.let_time_pass(2.0, period);
-    learner.see(item_delivery(), std::array{DemoIndex{100 * period}, DemoIndex{8000 + period}});
+    learner.see(item_delivery(), std::array{StartIndex{100 * period}, StartIndex{8000 + period}});
     learner.watch(std::span{bec}.first(1 + period % bec.size()), period);
     learner.hear_feedback(period % 2 == 0, std::span{bec}.last(1), period);
   }
@@ -212,12 +212,12 @@ TEST_P(LearnerLaws, EverythingHasANameAndADescription) {
 
 // --- likelihood ----------------------------------------------------------------
 
-AnswerEvidence evidence_of(std::span<const DemoIndex> tests, std::span<const IntegerVector> answers) {
+AnswerEvidence evidence_of(std::span<const StartIndex> tests, std::span<const IntegerVector> answers) {
   std::vector<GivenAnswer> given;
   for (std::size_t t = 0; t < tests.size(); ++t) given.push_back({tests[t], answers[t]});
   return {item_delivery(), given};
 }
-AnswerEvidence evidence_of(DemoIndex test, const IntegerVector& answer) {
+AnswerEvidence evidence_of(StartIndex test, const IntegerVector& answer) {
   return evidence_of(std::array{test}, std::array{answer});
 }
 

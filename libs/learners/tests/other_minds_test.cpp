@@ -18,7 +18,7 @@ namespace {
 
 using testing::item_delivery;
 
-const std::array kStarts{DemoIndex{10}, DemoIndex{4000}, DemoIndex{9000}};
+const std::array kStarts{StartIndex{10}, StartIndex{4000}, StartIndex{9000}};
 
 std::unique_ptr<Learner> somebody(const LearnerModel& model,
                                   const std::vector<std::pair<std::string, double>>& settings) {
@@ -53,7 +53,7 @@ TEST(OtherMinds, AreBayesianWhereNothingIsDifferent) {
       {&decaying_model(), {{"half_life", 1e6}}}};
   for (const auto& [model, settings] : same) {
     const auto other = somebody(*model, settings);
-    other->see(item_delivery(), std::array{DemoIndex{77}});
+    other->see(item_delivery(), std::array{StartIndex{77}});
     teach_all(*other, 3);
     EXPECT_EQ(*other->belief(), *bayesian->belief()) << model->kind;
     for (std::size_t period = 1; period <= 50; ++period) {
@@ -74,7 +74,7 @@ TEST(OtherMinds, PressAWrongKeyInSpiteOfKnowingBetter) {
   const auto knowing = somebody(bayesian_model(), {{"ability.mean", 0.9}});
   teach_all(*knowing, 8);
   constexpr int n = 2000;
-  const DemoIndex test{4000};
+  const StartIndex test{4000};
   const auto right = [&](const Learner& who, std::size_t draw) {
     const auto answer = who.answer(behaviours, std::array{test}, draw).answers.front();
     return judge_path(atlas.domain(), atlas.feature_counts(test), answer.value()).is_right;
@@ -112,7 +112,7 @@ TEST(OtherMinds, TakePathsByWhatTheyAreWorth) {
   const auto rational = somebody(noisy_rational_model(), {{"rationality", 1000.0}});
   const auto bayesian = somebody(bayesian_model(), {});
   const auto random = somebody(noisy_rational_model(), {{"rationality", 0.0}});
-  const DemoIndex test{9000};
+  const StartIndex test{9000};
   const auto coverage = atlas.tables().coverage_set(test);
   std::vector<int> counts(coverage.size(), 0);
   int same = 0;
@@ -168,7 +168,7 @@ TEST(OtherMinds, NeedPathsWhereAnswersAreNotBestPaths) {
     const auto learner = somebody(*model, {});
     if (model->needs_paths) {
       EXPECT_EQ(learner->answers_as_believed(), false);
-      if (model == &imitating_model()) learner->see(item_delivery(), std::array{DemoIndex{5}});
+      if (model == &imitating_model()) learner->see(item_delivery(), std::array{StartIndex{5}});
       EXPECT_THROW((void)learner->likelihood(regions), std::invalid_argument) << model->kind;
     } else {
       EXPECT_TRUE(learner->likelihood(regions).has_value()) << model->kind;

@@ -96,9 +96,9 @@ bool has_tests(const Atlas& atlas) {
 
 // The atlas without tests that people could not answer.
 std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> atlas) {
-  std::vector<bool> is_answerable(atlas->num_demos());
+  std::vector<bool> is_answerable(atlas->num_states());
   for (std::size_t i = 0; i < is_answerable.size(); ++i) {
-    is_answerable[i] = !atlas->is_candidate(DemoIndex{i}) || answerable_path(*atlas, DemoIndex{i});
+    is_answerable[i] = !atlas->is_candidate(StartIndex{i}) || answerable_path(*atlas, StartIndex{i});
   }
   if (std::find(is_answerable.begin(), is_answerable.end(), false) == is_answerable.end()) return atlas;
   auto answerable = std::make_shared<const Atlas>(atlas->with_tests(is_answerable));
@@ -111,12 +111,12 @@ std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> 
 }
 
 // A start where there is room to move, which no test would use if possible, simple to look at.
-DemoIndex find_sandbox(const Atlas& atlas) {
+StartIndex find_sandbox(const Atlas& atlas) {
   constexpr std::size_t kRoom = 4;
-  std::optional<DemoIndex> best;
+  std::optional<StartIndex> best;
   std::tuple<bool, bool, int, std::size_t> best_rank;
-  for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-    const DemoIndex demo{i};
+  for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+    const StartIndex demo{i};
     const bool tests = atlas.is_candidate(demo) && !atlas.tested_constraints(demo).without(atlas.prior()).empty();
     const auto steps = std::min(kRoom, atlas.trajectory(demo).actions.size());
     const std::tuple rank{steps < 2, tests, atlas.domain().complexity(atlas.id(demo)), kRoom - steps};
@@ -129,12 +129,12 @@ DemoIndex find_sandbox(const Atlas& atlas) {
 }
 
 // Starts that test the constraints of the robot's policy, each in turn.
-std::vector<DemoIndex> draw_screening(const Atlas& atlas, std::size_t n, RandomStream random) {
-  std::vector<DemoIndex> chosen;
-  const auto unused = [&](std::span<const DemoIndex> candidates) {
-    std::vector<DemoIndex> left;
+std::vector<StartIndex> draw_screening(const Atlas& atlas, std::size_t n, RandomStream random) {
+  std::vector<StartIndex> chosen;
+  const auto unused = [&](std::span<const StartIndex> candidates) {
+    std::vector<StartIndex> left;
     for (const auto demo : candidates) {
-      const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](DemoIndex other) {
+      const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](StartIndex other) {
         return atlas.trajectory_class(other) == atlas.trajectory_class(demo);
       });
       if (is_new) left.push_back(demo);

@@ -165,12 +165,12 @@ class ParticipantPage {
     }
   }
 
-  [[nodiscard]] std::size_t start_number(DemoIndex demo) const {
+  [[nodiscard]] std::size_t start_number(StartIndex demo) const {
     const auto id = room_.study.atlas->id(demo);
     return world_state(room_.study, id.mdp, id.start).value_or(0);
   }
 
-  [[nodiscard]] Json task(DemoIndex demo, std::size_t index, std::size_t of,
+  [[nodiscard]] Json task(StartIndex demo, std::size_t index, std::size_t of,
                           const std::vector<std::size_t>& draft) const {
     return {{"index", index},
             {"of", of},
@@ -298,7 +298,7 @@ std::string percent_encoded(const std::string& text) {
 
 }  // namespace
 
-Json live_board(const LiveStudy& study, DemoIndex demo) {
+Json live_board(const LiveStudy& study, StartIndex demo) {
   const auto& domain = study.atlas->domain();
   const auto all = board_domain_json(domain);
   Json legend{{"id", all["id"]}};
@@ -310,11 +310,11 @@ Json live_board(const LiveStudy& study, DemoIndex demo) {
   return board;
 }
 
-Json robot_path(const LiveStudy& study, DemoIndex demo) {
+Json robot_path(const LiveStudy& study, StartIndex demo) {
   return path_json(study.atlas->domain(), study.atlas->id(demo).mdp, study.atlas->trajectory(demo));
 }
 
-Json robot_runs(const LiveStudy& study, DemoIndex demo) {
+Json robot_runs(const LiveStudy& study, StartIndex demo) {
   constexpr std::size_t kRuns = 10;
   const auto world = study.atlas->id(demo).mdp;
   if (study.atlas->domain().mdp(world).is_deterministic()) return nullptr;

@@ -86,7 +86,7 @@ class RoomDetailPage {
   }
 
   [[nodiscard]] Json lesson_json(const Lesson& lesson) const {
-    const auto shown = [&](DemoIndex demo) {
+    const auto shown = [&](StartIndex demo) {
       Json entry{{"board", live_board(room_.study, demo)}};
       entry.update(robot_path(room_.study, demo));
       return entry;

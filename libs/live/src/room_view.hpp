@@ -12,12 +12,12 @@ namespace kith {
 [[nodiscard]] inline std::int64_t in_ms(std::int64_t us) noexcept { return us / 1000; }
 
 /// A board as participants get it: the legend of the domain and the map, nothing about rewards.
-[[nodiscard]] Json live_board(const LiveStudy& study, DemoIndex demo);
+[[nodiscard]] Json live_board(const LiveStudy& study, StartIndex demo);
 /// The robot's path from there: path_json().
-[[nodiscard]] Json robot_path(const LiveStudy& study, DemoIndex demo);
+[[nodiscard]] Json robot_path(const LiveStudy& study, StartIndex demo);
 /// Runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where nothing is
 /// left to chance.
-[[nodiscard]] Json robot_runs(const LiveStudy& study, DemoIndex demo);
+[[nodiscard]] Json robot_runs(const LiveStudy& study, StartIndex demo);
 
 /// ParticipantView.
 [[nodiscard]] Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us);

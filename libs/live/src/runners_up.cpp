@@ -14,7 +14,7 @@ std::vector<RunnerUp> runners_up(const Session& before, const Lesson& lesson, Te
   const SelectionOptions selection{.counterfactuals = options.counterfactuals,
                                    .sampling = options.sampling,
                                    .likelihood = team.options().likelihood};
-  VisitedDemos excluded{before.atlas().num_demos()};
+  VisitedStarts excluded{before.atlas().num_states()};
   for (const auto& past : before.history()) {
     for (const auto& shown : past.lesson.demonstrations) excluded.insert(shown.demo);
     for (const auto& test : past.lesson.tests) excluded.insert(test.demo);

@@ -125,7 +125,7 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
         .own_counterfactuals = spec.learner_counterfactuals_self ? spec.teaching.counterfactuals : 0,
         .pace = spec.pace};
     const auto& lesson = session.lesson();
-    std::vector<DemoIndex> tests;
+    std::vector<StartIndex> tests;
     for (const auto& test : lesson.tests) tests.push_back(test.demo);
     for (std::size_t m = 0; m < taught.learners.size(); ++m) {
       const auto& learner = taught.learners[m];

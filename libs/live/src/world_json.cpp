@@ -117,7 +117,7 @@ std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, S
   return state.value();
 }
 
-JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions, bool for_ever) {
+JudgedPath judged_path(const Atlas& atlas, StartIndex test, std::span<const std::size_t> actions, bool for_ever) {
   const auto [world, start] = atlas.id(test);
   const auto& domain = atlas.domain();
   const auto& mdp = domain.mdp(world);
@@ -162,7 +162,7 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
   return judged;
 }
 
-std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test) {
+std::optional<Trajectory> answerable_path(const Atlas& atlas, StartIndex test) {
   const auto [world, start] = atlas.id(test);
   const auto& mdp = atlas.domain().mdp(world);
   const auto most = max_answer_actions(atlas.domain());
@@ -180,7 +180,7 @@ std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test) {
   return path;
 }
 
-Trajectory expected_path(const Atlas& atlas, DemoIndex test) {
+Trajectory expected_path(const Atlas& atlas, StartIndex test) {
   auto path = answerable_path(atlas, test);
   return path ? *std::move(path) : atlas.trajectory(test);
 }

@@ -46,8 +46,8 @@ TEST(EndlessAnswers, ArePossibleExactlyWhereLaterStepsCountLess) {
 TEST(EndlessAnswers, AreRightWhereTheRobotNeverArrives) {
   const auto& atlas = *discounted_study()->atlas;
   std::size_t endless = 0;
-  for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-    const DemoIndex demo{i};
+  for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+    const StartIndex demo{i};
     const auto path = atlas.trajectory(demo);
     if (!path.repeats_from) {
       EXPECT_FALSE(judged_path(atlas, demo, numbers_of(path), true).is_legal);
@@ -79,7 +79,7 @@ TEST(EndlessAnswers, CountTheCycleAsOftenAsItIsGoneRound) {
     const Atlas atlas{testing::discounted_domain("item-delivery", discount)};
     auto random = RandomStream{5}.split("walks");
     for (int walk = 0; walk < 300; ++walk) {
-      const DemoIndex demo{uniform_index(atlas.num_demos(), random)};
+      const StartIndex demo{uniform_index(atlas.num_states(), random)};
       const auto [world, start] = atlas.id(demo);
       const auto& mdp = atlas.domain().mdp(world);
       std::vector<std::size_t> actions;
@@ -107,7 +107,7 @@ TEST(EndlessAnswers, CountTheCycleAsOftenAsItIsGoneRound) {
 // Round the last loop, not the first one.
 TEST(EndlessAnswers, GoOnFromTheLastTimeInTheSameState) {
   const auto& atlas = *discounted_study()->atlas;
-  const DemoIndex demo{0};
+  const StartIndex demo{0};
   const auto [world, start] = atlas.id(demo);
   const auto& mdp = atlas.domain().mdp(world);
   // There and back by every action that can be undone.
@@ -126,7 +126,7 @@ TEST(EndlessAnswers, GoOnFromTheLastTimeInTheSameState) {
 
 TEST(EndlessAnswers, StopShortOfTheEndWithoutADiscount) {
   const auto& atlas = *testing::live_study()->atlas;
-  const DemoIndex demo{0};
+  const StartIndex demo{0};
   const auto [world, start] = atlas.id(demo);
   const auto& mdp = atlas.domain().mdp(world);
   std::vector<std::size_t> round;

@@ -87,7 +87,7 @@ Forks forks(double size, double scale, const std::string& normalize, RandomStrea
 }
 
 // The other way of a fork.
-std::size_t other_choice(const Atlas& atlas, DemoIndex demo) {
+std::size_t other_choice(const Atlas& atlas, StartIndex demo) {
   return atlas.deviation_counts(demo, 0) == atlas.feature_counts(demo) ? 1 : 0;
 }
 
@@ -97,7 +97,7 @@ std::shared_ptr<const LiveStudy> study_about(const std::shared_ptr<const Atlas>&
   const auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   auto study = *make_live_study(*reading.study, testing::atlas_of("two-goals"));
   study.atlas = atlas;
-  for (DemoIndex demo{0}; demo.value() < atlas->num_demos(); ++demo) study.screening.push_back(demo);
+  for (StartIndex demo{0}; demo.value() < atlas->num_states(); ++demo) study.screening.push_back(demo);
   return std::make_shared<const LiveStudy>(std::move(study));
 }
 
@@ -181,7 +181,7 @@ TEST(Judge, IsTheSameForTestsExamsScreeningAndLessonsAboutNearTies) {
       play.join(1);
       ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", play.study().group().consent_version}}), "");
       ASSERT_EQ(play.seat(1, "checked"), "");
-      for (DemoIndex demo{0}; demo.value() < atlas->num_demos(); ++demo) {
+      for (StartIndex demo{0}; demo.value() < atlas->num_states(); ++demo) {
         const auto choice = other_choice(*atlas, demo);
         const auto other = atlas->deviation_counts(demo, choice);
         const auto judged = judge_path(domain, atlas->feature_counts(demo), other);
@@ -218,7 +218,7 @@ TEST(Judge, IsTheSameForTestsExamsLessonsAndTablesOfExactDomains) {
     RandomStream random = RandomStream{37}.split(name);
     for (int i = 0; i < 3000; ++i) {
       const PolicyCellIndex cell{uniform_index(atlas->tables().cells().size(), random)};
-      const DemoIndex demo{uniform_index(atlas->num_demos(), random)};
+      const StartIndex demo{uniform_index(atlas->num_states(), random)};
       const auto answer = atlas->tables().answer(demo, cell);
       const bool is_right = answer && judge_path(atlas->domain(), atlas->feature_counts(demo), *answer).is_right;
       EXPECT_EQ(table.is_right(cell, atlas->tables().hull(demo)), is_right);

@@ -206,13 +206,13 @@ class Play {
     }
   }
 
-  [[nodiscard]] Json right_path(DemoIndex demo) const {
+  [[nodiscard]] Json right_path(StartIndex demo) const {
     Json actions = Json::array();
     for (const auto action : expected_path(*study_->atlas, demo).actions) actions.push_back(action.value());
     return actions;
   }
   /// Another first action, from where the robot goes on as it would; worse than the robot's own path.
-  [[nodiscard]] Json wrong_path(DemoIndex demo) const {
+  [[nodiscard]] Json wrong_path(StartIndex demo) const {
     const auto& atlas = *study_->atlas;
     const auto [world, start] = atlas.id(demo);
     const auto& mdp = atlas.domain().mdp(world);

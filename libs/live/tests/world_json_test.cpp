@@ -46,8 +46,8 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
   const auto& atlas = *study->atlas;
   const auto& weights = atlas.domain().weights();
   std::size_t others = 0, circles = 0;
-  for (std::size_t i = 0; i < atlas.num_demos(); i += 1 + atlas.num_demos() / 60) {
-    const DemoIndex demo{i};
+  for (std::size_t i = 0; i < atlas.num_states(); i += 1 + atlas.num_states() / 60) {
+    const StartIndex demo{i};
     const auto robot = expected_path(atlas, demo);
     std::vector<std::size_t> actions;
     for (const auto action : robot.actions) actions.push_back(action.value());
@@ -99,7 +99,7 @@ TEST_P(WorldTables, TellPagesHowLongAPathMayBe) {
   auto random = RandomStream{5}.split("walks");
   std::size_t longest = 0;
   for (int walk = 0; walk < 20; ++walk) {
-    const DemoIndex demo{uniform_index(atlas.num_demos(), random)};
+    const StartIndex demo{uniform_index(atlas.num_states(), random)};
     const auto world = atlas.id(demo).mdp;
     const auto table = world_json(*study, world);
     const auto most = table.at("max_actions").get<std::size_t>();

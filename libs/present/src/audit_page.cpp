@@ -321,7 +321,7 @@ class Page {
     out_ += is_urgent ? figures : "<details><summary>Board to test this</summary>\n" + figures + "</details>\n";
   }
 
-  [[nodiscard]] std::string figure(DemoIndex demo, const std::string& purpose, const std::string& text) const {
+  [[nodiscard]] std::string figure(StartIndex demo, const std::string& purpose, const std::string& text) const {
     const auto id = atlas_.id(demo);
     const auto path = atlas_.trajectory(demo);
     const auto caption =

@@ -161,7 +161,7 @@ std::string advice_in_words(const ComponentAudit& audit) {
 
 namespace {
 
-Json demo_json(const Atlas& atlas, std::optional<DemoIndex> demo) {
+Json start_json(const Atlas& atlas, std::optional<StartIndex> demo) {
   if (!demo) return nullptr;
   auto json = board_json(atlas.domain(), atlas.id(*demo));
   json["mdp"] = atlas.id(*demo).mdp.value();
@@ -188,7 +188,7 @@ Json misconception_json(const Atlas& atlas, const LikelyMisconception& misconcep
           {"thinks", misconception.thinks},
           {"fact", misconception.fact},
           {"answers", answers},
-          {"show", demo_json(atlas, misconception.show)},
+          {"show", start_json(atlas, misconception.show)},
           {"reason", misconception.reason.empty() ? Json{} : Json(misconception.reason)}};
 }
 
@@ -210,7 +210,7 @@ Json component_json(const Atlas& atlas, const ComponentAudit& audit) {
       {"tests", audit.tests},
       {"correct", audit.correct},
       {"misconception", audit.misconception ? misconception_json(atlas, *audit.misconception) : Json{}},
-      {"test", demo_json(atlas, audit.test)},
+      {"test", start_json(atlas, audit.test)},
       {"test_after",
        audit.understanding == Understanding::kUnderstands && audit.test_after > 0 ? Json(audit.test_after) : Json{}},
       {"advice", advice.empty() ? Json{} : Json(advice)}};

@@ -111,7 +111,7 @@ Json board_domain_json(const Domain& domain) {
   return json;
 }
 
-Json board_json(const Domain& domain, DemoId id) {
+Json board_json(const Domain& domain, StartId id) {
   Json json{{"world", id.mdp.value()}};
   const auto map = domain.drawing();
   if (map) json["map"] = map->draw(id.mdp, std::nullopt);

@@ -17,7 +17,7 @@ class Tables {
   explicit Tables(const Atlas& atlas) : atlas_{atlas} {}
 
   // A board on which somebody drives the robot, and what the robot's own path counts.
-  void add_start(Json& json, DemoIndex demo) {
+  void add_start(Json& json, StartIndex demo) {
     const auto id = atlas_.id(demo);
     const auto& counts = atlas_.feature_counts(demo);
     json["state"] = id.start.value();

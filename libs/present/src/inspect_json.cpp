@@ -9,7 +9,7 @@
 namespace kith {
 namespace {
 
-Json demo_to_json(const Atlas& atlas, DemoIndex demo) {
+Json start_to_json(const Atlas& atlas, StartIndex demo) {
   const auto& domain = atlas.domain();
   const auto& counts = atlas.feature_counts(demo);
   Json json{{"start", start_to_json(domain, atlas.id(demo))}};
@@ -84,10 +84,10 @@ Json inspection_json(const Atlas& atlas, const InspectionContent& content) {
   }
   if (content.demos) {
     Json demos = Json::array();
-    for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-      const DemoIndex demo{i};
+    for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+      const StartIndex demo{i};
       if (!atlas.is_candidate(demo)) continue;
-      if (!content.mdp || atlas.id(demo).mdp.value() == *content.mdp) demos.push_back(demo_to_json(atlas, demo));
+      if (!content.mdp || atlas.id(demo).mdp.value() == *content.mdp) demos.push_back(start_to_json(atlas, demo));
     }
     document["demos"] = std::move(demos);
   }

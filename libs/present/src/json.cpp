@@ -66,7 +66,7 @@ Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension) {
   return array;
 }
 
-Json start_to_json(const Domain& domain, DemoId id) {
+Json start_to_json(const Domain& domain, StartId id) {
   const auto map = domain.map();
   if (!map) {
     return {{"state", id.start.value()},

@@ -57,7 +57,7 @@ std::string name_of(const GridMap& map, const Shown& what, const LegendEntry& sy
 
 }  // namespace
 
-Picture bare_picture(const GridMap& map, DemoId id) { return map.draw_bare(id.mdp, id.start); }
+Picture bare_picture(const GridMap& map, StartId id) { return map.draw_bare(id.mdp, id.start); }
 
 std::string legend(const Domain& domain, std::size_t indent) {
   const auto map = domain.drawing();

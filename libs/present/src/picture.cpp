@@ -64,16 +64,16 @@ std::string configuration_in_words(const GridMap& map, MdpIndex m, const GridSta
   return text.substr(0, text.size() - std::min<std::size_t>(2, text.size()));
 }
 
-Picture start_picture(const GridMap& map, DemoId id) { return map.draw(id.mdp, id.start); }
+Picture start_picture(const GridMap& map, StartId id) { return map.draw(id.mdp, id.start); }
 
-std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, DemoId id, const Trajectory& path) {
+std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, StartId id, const Trajectory& path) {
   const auto robot = [&](std::size_t i) { return map.state(id.mdp, path.states[i]).robot; };
   std::vector<Picture> legs;
   Picture leg;
   std::size_t moves = 0;
   std::vector<Cell> left;  // in this leg
   for (std::size_t i = 0; i < path.actions.size(); ++i) {
-    if (leg.empty()) leg = start_picture(map, DemoId{id.mdp, path.states[i]});
+    if (leg.empty()) leg = start_picture(map, StartId{id.mdp, path.states[i]});
     if (robot(i) != robot(i + 1)) {
       at(leg, robot(i)) = arrow_of(domain.action_names()[path.actions[i].value()]);
       left.push_back(robot(i));
@@ -92,7 +92,7 @@ std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, Dem
   return legs;
 }
 
-std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+std::string path_text(const Domain& domain, StartId id, const Trajectory& path, std::size_t indent) {
   const std::string blank(indent, ' ');
   std::string text = blank + domain.state_name(id.mdp, path.states.front()) + "\n";
   for (std::size_t i = 0; i < path.actions.size(); ++i) {
@@ -102,7 +102,7 @@ std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, s
   return text;
 }
 
-std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+std::string start_and_path(const Domain& domain, StartId id, const Trajectory& path, std::size_t indent) {
   const auto map = domain.drawing();
   if (!map) return path_text(domain, id, path, indent);
   std::vector<Picture> pictures{bare_picture(*map, id), start_picture(*map, id)};

@@ -87,7 +87,7 @@ Transcript transcribe(const Atlas& atlas, const StudySpec& spec, const TeamAddre
   return transcript;
 }
 
-std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts,
+std::optional<Trajectory> path_of_answer(const Atlas& atlas, StartIndex test, const IntegerVector& counts,
                                          const Direction& weights) {
   if (counts == atlas.feature_counts(test)) return atlas.trajectory(test);
   return Behaviours{atlas}.trajectory(test, weights);

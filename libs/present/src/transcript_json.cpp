@@ -158,7 +158,7 @@ class Converter {
             {"done_after", done}};
   }
 
-  [[nodiscard]] Json path_to_json(DemoIndex demo) const {
+  [[nodiscard]] Json path_to_json(StartIndex demo) const {
     const auto& counts = atlas_.feature_counts(demo);
     Json json{{"start", start_to_json(domain_, atlas_.id(demo))}};
     json.update(actions_json(domain_, atlas_.trajectory(demo)));

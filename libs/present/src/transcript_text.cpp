@@ -133,7 +133,7 @@ class TranscriptWriter {
     }
   }
 
-  [[nodiscard]] std::string start_text(DemoId id) const {
+  [[nodiscard]] std::string start_text(StartId id) const {
     auto text = fmt::format("{}, start {}", mdp_text(domain_, id.mdp), id.start.value());
     const auto map = domain_.drawing();
     if (!map) return text + ": " + domain_.state_name(id.mdp, id.start);
@@ -150,7 +150,7 @@ class TranscriptWriter {
   }
 
   // " (likeliest path, chance 12 %)" where chance has a part.
-  [[nodiscard]] std::string chance(DemoId id, const Trajectory& path) const {
+  [[nodiscard]] std::string chance(StartId id, const Trajectory& path) const {
     const auto words = chance_in_words(domain_, id.mdp, path);
     return words.empty() ? "" : " (" + words + ")";
   }

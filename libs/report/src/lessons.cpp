@@ -18,10 +18,10 @@ constexpr std::size_t kMostBytes = 900'000;  // of boards and teams, as JSON
 // A period of a team, or of the member who is taught alone.
 struct LessonOfPeriod {
   std::size_t component = 0;  // from 1
-  std::vector<DemoIndex> shown;
+  std::vector<StartIndex> shown;
   std::vector<std::string> conveyed;  // "-1 0 2"
   struct Test {
-    DemoIndex demo;
+    StartIndex demo;
     std::map<std::size_t, bool> right;  // by member
   };
   std::map<std::size_t, Test> tests;        // by number
@@ -64,14 +64,14 @@ class LessonReader {
     read_table("demonstrations.csv", {"period", "kc", "mdp", "start", "constraint", "member"},
                [&](const StudyRow& row, TeamLessons& team) {
                  auto& lesson = lesson_of(row, team, row.has(5) ? row.count(5, 1, kMax) : 0);
-                 lesson.shown.push_back(demo_of(row, 2));
+                 lesson.shown.push_back(start_of(row, 2));
                  for (auto& one : split(row.text(4), ';')) lesson.conveyed.push_back(std::move(one));
                });
     read_table("responses.csv", {"period", "kc", "mdp", "start", "test", "member", "correct"},
                [&](const StudyRow& row, TeamLessons& team) {
                  const auto member = row.count(5, 1, kMax);
                  auto& test = lesson_of(row, team, session_of(row, member)).tests[row.count(4, 1, kMax)];
-                 test.demo = demo_of(row, 2);
+                 test.demo = start_of(row, 2);
                  test.right[member] = row.boolean(6);
                });
     read_table("progress.csv", {"period", "kc", "member", "p_bec"}, [&](const StudyRow& row, TeamLessons& team) {
@@ -104,7 +104,7 @@ class LessonReader {
     return lesson;
   }
 
-  [[nodiscard]] DemoIndex demo_of(const StudyRow& row, std::size_t i) const {
+  [[nodiscard]] StartIndex start_of(const StudyRow& row, std::size_t i) const {
     const auto& domain = run_.domain;
     const MdpIndex mdp{row.count(i, 0, domain.num_mdps() - 1)};
     return atlas_.index({mdp, StateIndex{row.count(i + 1, 0, domain.mdp(mdp).num_states() - 1)}});
@@ -171,7 +171,7 @@ class LessonWriter {
         {period, lesson.component, session, std::move(shown), std::move(says), std::move(tests), std::move(knowledge)});
   }
 
-  std::size_t board(DemoIndex demo) {
+  std::size_t board(StartIndex demo) {
     const auto [entry, is_new] = known_boards_.emplace(demo, boards_.size());
     if (is_new) {
       const auto id = atlas_.id(demo);
@@ -205,7 +205,7 @@ class LessonWriter {
   const Atlas& atlas_;
   const Domain& domain_;
   Json boards_ = Json::array(), sentences_ = Json::array(), teams_ = Json::array();
-  std::map<DemoIndex, std::size_t> known_boards_;
+  std::map<StartIndex, std::size_t> known_boards_;
   std::map<std::string, std::size_t> known_sentences_;
   std::size_t bytes_ = 0;
 };

@@ -97,12 +97,12 @@ class Solver {
  public:
   explicit Solver(std::shared_ptr<const LiveStudy> study) : study_{std::move(study)} {
     const auto& atlas = *study_->atlas;
-    for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
-      const auto id = atlas.id(DemoIndex{i});
-      if (!atlas.is_candidate(DemoIndex{i})) continue;
+    for (std::size_t i = 0; i < atlas.num_states(); ++i) {
+      const auto id = atlas.id(StartIndex{i});
+      if (!atlas.is_candidate(StartIndex{i})) continue;
       const auto state = world_state(*study_, id.mdp, id.start);
       if (!state) continue;
-      demos_.emplace(std::pair{world_key(*study_, id.mdp), *state}, DemoIndex{i});
+      demos_.emplace(std::pair{world_key(*study_, id.mdp), *state}, StartIndex{i});
     }
   }
 
@@ -142,7 +142,7 @@ class Solver {
 
  private:
   std::shared_ptr<const LiveStudy> study_;
-  std::map<std::pair<std::string, std::size_t>, DemoIndex> demos_;
+  std::map<std::pair<std::string, std::size_t>, StartIndex> demos_;
   std::map<std::string, Json> tables_;
 };
 

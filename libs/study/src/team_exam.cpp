@@ -75,7 +75,7 @@ void TeamExaminer::at_end(const Session& session, const Learners& learners, std:
 // The same questions for everybody, about starts that nobody has met.
 void TeamExaminer::ask(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows,
                        std::size_t member) {
-  std::vector<DemoIndex> seen;
+  std::vector<StartIndex> seen;
   for (const auto& period : session.history()) {
     for (const auto& shown : period.lesson.demonstrations) seen.push_back(shown.demo);
     for (const auto& test : period.lesson.tests) seen.push_back(test.demo);

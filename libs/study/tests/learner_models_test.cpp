@@ -116,7 +116,7 @@ class Oracle final : public Learner {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<Oracle>(*this); }
   void begin_component() override {}
   void watch(std::span<const HalfSpace>, std::size_t) override {}
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests, std::size_t) const override {
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests, std::size_t) const override {
     Response response;
     for (const auto test : tests) response.answers.emplace_back(behaviours.atlas().feature_counts(test));
     return response;

@@ -24,10 +24,10 @@ const std::array kCurriculumParameters{
 
 std::span<const Parameter> curriculum_parameters() { return kCurriculumParameters; }
 
-std::vector<DemoIndex> CurriculumStrategy::candidates(const TeachingView& view) {
+std::vector<StartIndex> CurriculumStrategy::candidates(const TeachingView& view) {
   const auto& component = view.atlas.knowledge_components()[view.component];
-  std::vector<DemoIndex> demos;
-  for (DemoIndex demo{0}; demo.value() < view.atlas.num_demos(); ++demo) {
+  std::vector<StartIndex> demos;
+  for (StartIndex demo{0}; demo.value() < view.atlas.num_states(); ++demo) {
     if (!view.atlas.is_candidate(demo) || !component.uses_mdp[view.atlas.id(demo).mdp.value()]) continue;
     if (!view.atlas.one_step(demo).empty()) demos.push_back(demo);
   }
@@ -49,7 +49,7 @@ UnitProposal CurriculumStrategy::propose(const TeachingView& view, UnitSelector&
   for (const bool again : {false, true}) {  // what was met already only if there is nothing else
     for (const auto demo : ranked) {
       if (view.visited.contains(demo) != again) continue;
-      std::vector<DemoIndex> demos;
+      std::vector<StartIndex> demos;
       for (const auto& shown : unit.demonstrations) demos.push_back(shown.demo);
       demos.push_back(demo);
       unit = unit_of(select.cache(), view, demos, people);

@@ -25,10 +25,10 @@ class CurriculumStrategy : public Strategy {
 
  protected:
   // Candidates of the component, the first to be shown first. @param random  another one in every period.
-  [[nodiscard]] virtual std::vector<DemoIndex> ranking(const TeachingView& view, RandomStream random) const = 0;
+  [[nodiscard]] virtual std::vector<StartIndex> ranking(const TeachingView& view, RandomStream random) const = 0;
 
   // All candidates of the component that is to be taught, ascending.
-  [[nodiscard]] static std::vector<DemoIndex> candidates(const TeachingView& view);
+  [[nodiscard]] static std::vector<StartIndex> candidates(const TeachingView& view);
 
  private:
   std::size_t people_;

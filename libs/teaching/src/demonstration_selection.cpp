@@ -22,7 +22,7 @@ constexpr double kTieTolerance = 1e-5;
 
 // What showing any demonstration of one class would do to the taught region.
 struct Prospect {
-  DemoClassIndex demo_class;
+  StartClassIndex start_class;
   double gain = 1.0;
   std::size_t num_new = 0;
 };
@@ -64,7 +64,7 @@ class Effects {
 
 class Selection {
  public:
-  Selection(TeachingCache& cache, const KnowledgeComponent& component, const VisitedDemos& visited)
+  Selection(TeachingCache& cache, const KnowledgeComponent& component, const VisitedStarts& visited)
       : atlas_{cache.atlas()}, cache_{cache}, component_{component}, visited_{visited} {}
 
   // The next demonstration of the unit, or nothing if none has gain.
@@ -81,8 +81,8 @@ class Selection {
                                                     const RandomStream& random) {
     constexpr std::size_t kBits = 64;
     const std::size_t words = (cache_.constraints().size() + kBits - 1) / kBits;
-    rows_.assign(atlas_.num_demo_classes() * words, 0);
-    for (const auto c : component_.demo_classes) {
+    rows_.assign(atlas_.num_start_classes() * words, 0);
+    for (const auto c : component_.start_classes) {
       const auto& shown = atlas_.one_step(atlas_.members(c).front());
       for (const auto facet : facets.members()) {
         if (!shown.contains(facet)) continue;
@@ -98,7 +98,7 @@ class Selection {
                                            const RandomStream& random) {
     auto prospects = prospects_with_gain(taught_region);
     // Fewest new facets first, then the best gain; classes whose members were all visited do not count.
-    std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(atlas_, p.demo_class, visited_); });
+    std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(atlas_, p.start_class, visited_); });
     if (prospects.empty()) return std::nullopt;
     const auto fewest = std::min_element(prospects.begin(), prospects.end(), [](const Prospect& a, const Prospect& b) {
                           return a.num_new < b.num_new;
@@ -114,8 +114,8 @@ class Selection {
   std::vector<Prospect> prospects_with_gain(const ConstraintSet& taught_region) {
     std::vector<Prospect> prospects;
     const std::size_t words = conveyed_.words;
-    effects_.restart(words, component_.demo_classes.size());
-    for (const auto c : component_.demo_classes) {
+    effects_.restart(words, component_.start_classes.size());
+    for (const auto c : component_.start_classes) {
       const std::uint64_t* const row = conveyed_.rows.data() + c.value() * words;
       const auto& effect = effects_.of(row, [&] { return cache_.regions().effect(taught_region, conveyed_.set(c)); });
       if (effect.gain > 1.0 + kGainTolerance) prospects.push_back({c, effect.gain, effect.num_new});
@@ -125,25 +125,25 @@ class Selection {
 
   Demonstration simplest(std::span<const Prospect> prospects, const std::vector<Demonstration>& unit,
                          const RandomStream& random) {
-    std::vector<DemoClassIndex> classes;
+    std::vector<StartClassIndex> classes;
     classes.reserve(prospects.size());
-    for (const auto& prospect : prospects) classes.push_back(prospect.demo_class);
+    for (const auto& prospect : prospects) classes.push_back(prospect.start_class);
     Demonstration best;
     best.demo = simplest_of(atlas_, classes, visited_, unit, random);
     const auto chosen = std::find_if(prospects.begin(), prospects.end(), [&](const Prospect& prospect) {
-      return prospect.demo_class == atlas_.demo_class(best.demo);
+      return prospect.start_class == atlas_.start_class(best.demo);
     });
     best.gain = chosen->gain;
     best.num_new = chosen->num_new;
     best.half_spaces =
-        cache_.constraints().half_spaces(cache_.regions().minimal(conveyed_.set(atlas_.demo_class(best.demo))));
+        cache_.constraints().half_spaces(cache_.regions().minimal(conveyed_.set(atlas_.start_class(best.demo))));
     return best;
   }
 
   const Atlas& atlas_;
   TeachingCache& cache_;
   const KnowledgeComponent& component_;
-  const VisitedDemos& visited_;
+  const VisitedStarts& visited_;
   Behaviours::Conveyed conveyed_;
   std::vector<std::uint64_t> rows_;  // of next_for_the_endless()
   Effects effects_;
@@ -189,7 +189,7 @@ std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, cons
 }
 
 Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const KnowledgeComponent& component,
-                           std::span<const HalfSpace> taught_region, VisitedDemos visited,
+                           std::span<const HalfSpace> taught_region, VisitedStarts visited,
                            const SelectionOptions& options, RandomStream random) {
   Unit unit;
   ConstraintSet taught = cache.numbers_of(taught_region);
@@ -265,13 +265,13 @@ ImaginedPeople who_miss(TeachingCache& cache, const KnowledgeComponent& componen
 }  // namespace
 
 void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& component,
-                   std::span<const HalfSpace> shown_before, VisitedDemos visited, std::size_t max_demonstrations,
+                   std::span<const HalfSpace> shown_before, VisitedStarts visited, std::size_t max_demonstrations,
                    RandomStream random) {
   auto& regions = cache.regions();
   auto taught = regions.minimal(cache.numbers_of(unit.taught_region));
   auto shown = regions.minimal(taught | cache.numbers_of(shown_before));
   for (const auto& demonstration : unit.demonstrations) visited.insert(demonstration.demo);
-  const VisitedDemos nothing{cache.atlas().num_demos()};
+  const VisitedStarts nothing{cache.atlas().num_states()};
   Selection fresh{cache, component, visited};
   Selection any{cache, component, nothing};
   const std::size_t most = max_demonstrations;
@@ -313,7 +313,7 @@ Unit UnitSelector::for_belief(const ParticleBelief& belief, RandomStream random)
   if (unit.demonstrations.empty() || teaches_whole_components(view_->atlas)) complete(unit, random.split("open"));
   if (unit.demonstrations.empty() && view_->last_of_component != nullptr) {
     unit = select_demonstrations(*cache_, belief, component, view_->taught_region,
-                                 VisitedDemos{view_->atlas.num_demos()}, options_, random.split("again"));
+                                 VisitedStarts{view_->atlas.num_states()}, options_, random.split("again"));
   }
   return unit;
 }

@@ -16,7 +16,7 @@ constexpr std::size_t kDraws = 16;
 
 RandomStream exam_stream() { return RandomStream{0}.split("exam"); }
 
-double worst_deviation(const Atlas& atlas, DemoIndex start) {
+double worst_deviation(const Atlas& atlas, StartIndex start) {
   const auto id = atlas.id(start);
   const auto& mdp = atlas.domain().mdp(id.mdp);
   double worst = 0.0;
@@ -29,7 +29,7 @@ double worst_deviation(const Atlas& atlas, DemoIndex start) {
 
 }  // namespace
 
-Grade grade_answer(const Atlas& atlas, DemoIndex start, const std::optional<IntegerVector>& answer) {
+Grade grade_answer(const Atlas& atlas, StartIndex start, const std::optional<IntegerVector>& answer) {
   if (!answer) return {0.0, worst_deviation(atlas, start)};
   const auto judged = judge_path(atlas.domain(), atlas.feature_counts(start), *answer);
   return judged.is_right ? Grade{1.0, 0.0} : Grade{0.0, judged.raw_regret};
@@ -37,7 +37,7 @@ Grade grade_answer(const Atlas& atlas, DemoIndex start, const std::optional<Inte
 
 Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
   const auto& atlas = behaviours.atlas();
-  std::vector<DemoIndex> starts;
+  std::vector<StartIndex> starts;
   std::vector<double> share_right;
   if (const auto* tables = atlas.find_tables()) {
     table_.emplace(atlas);
@@ -49,7 +49,7 @@ Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
         if (table_->is_right(PolicyCellIndex{c}, HullIndex{h})) of_hull[h] += mass[c];
       }
     }
-    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       if (!atlas.is_candidate(demo)) continue;
       starts.push_back(demo);
       share_right.push_back(of_hull[tables->hull(demo).value()]);
@@ -68,9 +68,9 @@ Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
 }
 
 // Candidates of a few MDPs, every one as likely as any other of its MDP.
-std::vector<DemoIndex> Exam::sampled_starts(const Atlas& atlas) const {
-  std::vector<std::vector<DemoIndex>> by_mdp;
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+std::vector<StartIndex> Exam::sampled_starts(const Atlas& atlas) const {
+  std::vector<std::vector<StartIndex>> by_mdp;
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     const auto mdp = atlas.id(demo).mdp.value();
     if (by_mdp.size() <= mdp) by_mdp.resize(mdp + 1);
     if (atlas.is_candidate(demo)) by_mdp[mdp].push_back(demo);
@@ -83,10 +83,10 @@ std::vector<DemoIndex> Exam::sampled_starts(const Atlas& atlas) const {
   std::sort(mdps.begin(), mdps.end(),
             [&](auto a, auto b) { return chance(root.split("mdps"), a) < chance(root.split("mdps"), b); });
   if (mdps.size() > kSampledMdps) mdps.resize(kSampledMdps);
-  std::vector<DemoIndex> starts;
+  std::vector<StartIndex> starts;
   for (const auto m : mdps) {
     auto& demos = by_mdp[m];
-    std::sort(demos.begin(), demos.end(), [&](DemoIndex a, DemoIndex b) {
+    std::sort(demos.begin(), demos.end(), [&](StartIndex a, StartIndex b) {
       return chance(root.split("starts"), a.value()) < chance(root.split("starts"), b.value());
     });
     if (demos.size() > kSampledPerMdp) demos.resize(kSampledPerMdp);
@@ -96,7 +96,7 @@ std::vector<DemoIndex> Exam::sampled_starts(const Atlas& atlas) const {
 }
 
 // The thirds, easiest first; where there are no tables, a sample of each.
-void Exam::sort_by_difficulty(std::vector<DemoIndex> starts, const std::vector<double>& share_right) {
+void Exam::sort_by_difficulty(std::vector<StartIndex> starts, const std::vector<double>& share_right) {
   std::vector<std::size_t> order(starts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return share_right[a] > share_right[b]; });
@@ -105,7 +105,7 @@ void Exam::sort_by_difficulty(std::vector<DemoIndex> starts, const std::vector<d
   }
   for (auto& third : by_difficulty_) {
     if (!table_ && third.size() > kSampledPerThird) {
-      std::vector<DemoIndex> some;
+      std::vector<StartIndex> some;
       for (std::size_t i = 0; i < kSampledPerThird; ++i) some.push_back(third[i * third.size() / kSampledPerThird]);
       third = std::move(some);
     }
@@ -174,9 +174,9 @@ ExamGrades Exam::grade_sample(const ParticleBelief& belief, Behaviours& behaviou
   return grades;
 }
 
-std::vector<DemoIndex> Exam::questions(std::size_t n, std::span<const DemoIndex> seen, RandomStream random) const {
+std::vector<StartIndex> Exam::questions(std::size_t n, std::span<const StartIndex> seen, RandomStream random) const {
   constexpr int kTries = 200;
-  std::vector<DemoIndex> chosen;
+  std::vector<StartIndex> chosen;
   for (std::size_t i = 0; i < n; ++i) {
     const auto& starts = by_difficulty_[i % by_difficulty_.size()];
     if (starts.empty()) continue;

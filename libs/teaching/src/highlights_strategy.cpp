@@ -14,11 +14,11 @@ class Highlights : public CurriculumStrategy {
   [[nodiscard]] std::unique_ptr<Strategy> clone() const override { return std::make_unique<Highlights>(*this); }
 
  private:
-  [[nodiscard]] std::vector<DemoIndex> ranking(const TeachingView& view, RandomStream /*random*/) const override {
+  [[nodiscard]] std::vector<StartIndex> ranking(const TeachingView& view, RandomStream /*random*/) const override {
     struct Ranked {
       double importance;
       std::uint64_t chance;
-      DemoIndex demo;
+      StartIndex demo;
     };
     const auto random = RandomStream{0}.split("highlights");
     std::vector<Ranked> ranked;
@@ -28,7 +28,7 @@ class Highlights : public CurriculumStrategy {
     std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
       return a.importance != b.importance ? a.importance > b.importance : a.chance < b.chance;
     });
-    std::vector<DemoIndex> demos, others;
+    std::vector<StartIndex> demos, others;
     std::set<std::size_t> mdps;
     for (const auto& one : ranked) {
       const bool is_first = mdps.insert(view.atlas.id(one.demo).mdp.value()).second;
@@ -38,7 +38,7 @@ class Highlights : public CurriculumStrategy {
     return demos;
   }
 
-  static double importance(const Atlas& atlas, DemoIndex demo) {
+  static double importance(const Atlas& atlas, StartIndex demo) {
     const auto id = atlas.id(demo);
     const auto& weights = atlas.domain().weights();
     double worst = 0.0;  // the best choice loses nothing

@@ -17,7 +17,7 @@ constexpr double kTie = 1e-12;  // values of U within this are equal
 // Demonstration classes that convey the same.
 struct Candidate {
   ConstraintSet conveyed;
-  std::vector<DemoClassIndex> classes;
+  std::vector<StartClassIndex> classes;
 };
 
 // Those of the component that convey anything.
@@ -26,7 +26,7 @@ std::vector<Candidate> candidates_of(TeachingCache& cache, const KnowledgeCompon
   const auto conveyed = cache.behaviours().conveyed_by_class(component, cells);
   std::vector<Candidate> candidates;
   std::unordered_map<ConstraintSet, std::size_t> by_row, by_minimal;  // most classes share theirs with others
-  for (const auto c : component.demo_classes) {
+  for (const auto c : component.start_classes) {
     auto row = conveyed.set(c);
     if (row.empty()) continue;
     const auto [same, is_new] = by_row.try_emplace(std::move(row), 0);
@@ -121,7 +121,7 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
                const PlanOptions& options, RandomStream random) {
   const auto& atlas = view.atlas;
   const auto& component = atlas.knowledge_components()[view.component];
-  VisitedDemos visited = view.visited;
+  VisitedStarts visited = view.visited;
   const auto candidates = candidates_of(cache, component, people.cells);
   Unit unit;
   auto region = cache.numbers_of(view.taught_region);
@@ -138,7 +138,7 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
     const double best = *std::max_element(values.begin(), values.end());
     if (step > 0 && !(best > reached + options.min_gain)) break;
     reached = best;
-    std::vector<DemoClassIndex> classes;
+    std::vector<StartClassIndex> classes;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (values[i] < best - kTie) continue;
       classes.insert(classes.end(), candidates[i].classes.begin(), candidates[i].classes.end());
@@ -146,11 +146,11 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
     std::sort(classes.begin(), classes.end());
     const bool is_new =
         std::any_of(classes.begin(), classes.end(), [&](auto c) { return has_unvisited(atlas, c, visited); });
-    const VisitedDemos nothing{atlas.num_demos()};
+    const VisitedStarts nothing{atlas.num_states()};
     Demonstration next;
     next.demo = simplest_of(atlas, classes, is_new ? visited : nothing, unit.demonstrations, random.split(step));
     const auto chosen = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
-      const auto c = atlas.demo_class(next.demo);
+      const auto c = atlas.start_class(next.demo);
       return std::find(candidate.classes.begin(), candidate.classes.end(), c) != candidate.classes.end();
     });
     shown.back() = chosen->conveyed;
@@ -167,7 +167,7 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
   return unit;
 }
 
-Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const DemoIndex> demonstrations,
+Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const StartIndex> demonstrations,
              const ImaginedPeople& people) {
   Unit unit;
   auto region = cache.numbers_of(view.taught_region);

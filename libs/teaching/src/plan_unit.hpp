@@ -22,7 +22,7 @@ struct PlanOptions {
 
 // The unit of these demonstrations, with what they convey to the imagined people; those that convey nothing are left
 // out.
-[[nodiscard]] Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const DemoIndex> demonstrations,
+[[nodiscard]] Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const StartIndex> demonstrations,
                            const ImaginedPeople& people);
 
 // U of a unit that a strategy chose.

@@ -14,11 +14,11 @@ class RandomDemonstrations : public CurriculumStrategy {
   }
 
  private:
-  [[nodiscard]] std::vector<DemoIndex> ranking(const TeachingView& view, RandomStream random) const override {
-    std::vector<std::pair<std::uint64_t, DemoIndex>> shuffled;
+  [[nodiscard]] std::vector<StartIndex> ranking(const TeachingView& view, RandomStream random) const override {
+    std::vector<std::pair<std::uint64_t, StartIndex>> shuffled;
     for (const auto demo : candidates(view)) shuffled.emplace_back(chance_of(demo, random), demo);
     std::sort(shuffled.begin(), shuffled.end());
-    std::vector<DemoIndex> demos;
+    std::vector<StartIndex> demos;
     for (const auto& [key, demo] : shuffled) demos.push_back(demo);
     return demos;
   }

@@ -112,9 +112,9 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
               teacher.split("team belief")},
       right_in_a_row_(persons_.size(), 0),
       components_(atlas_->knowledge_components().size(), ComponentStatus::kOpen),
-      seats_(persons_.size(), Seat::kPresent),
+      attendance_(persons_.size(), Attendance::kPresent),
       is_new_(persons_.size(), false),
-      visited_{atlas_->num_demos()},
+      visited_{atlas_->num_states()},
       pending_(persons_.size()) {
   require(persons_.size() <= kMaxMembers, "a team has at most 30 members");
   require(!choice_.is_baseline() || persons_.size() == 1, "the baseline teaches one person per session");
@@ -155,7 +155,7 @@ const Lesson& Session::lesson() const {
 struct Session::Prepared {
   Lesson lesson;
   std::shared_ptr<const Strategy> strategy;
-  VisitedDemos visited;
+  VisitedStarts visited;
   std::vector<HalfSpace> taught_with_unit;
 };
 
@@ -185,7 +185,8 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
     return has_lesson;
   }
   std::vector<bool> present;
-  for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent || seat == Seat::kReturning);
+  for (const Attendance seat : attendance_)
+    present.push_back(seat == Attendance::kPresent || seat == Attendance::kReturning);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};
   cache.trim();
 
@@ -202,7 +203,7 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
   // From here on nothing fails.
   events_.push_back(std::move(proposed));
   if (others) belief_ = *std::move(others);
-  for (Seat& seat : seats_) seat = seat == Seat::kReturning ? Seat::kPresent : seat;
+  for (Attendance& seat : attendance_) seat = seat == Attendance::kReturning ? Attendance::kPresent : seat;
   for (; component_ < component; ++component_) components_[component_] = ComponentStatus::kSkipped;
   if (!prepared) {
     // Those that are left out by design do not count.
@@ -318,7 +319,7 @@ std::vector<HalfSpace> Session::to_examine(const Lesson& lesson, TeachingCache& 
 void Session::show() {
   require_phase(SessionPhase::kLesson, "showing a lesson");
   std::vector<bool> present;
-  for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent);
+  for (const Attendance seat : attendance_) present.push_back(seat == Attendance::kPresent);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "the lesson cannot be shown: everybody is away"};
   std::vector<HalfSpace> conveyed;
   for (const auto& shown : lesson_.demonstrations) {
@@ -416,7 +417,7 @@ const Feedback& Session::close_tests() {
 const Feedback& Session::give_feedback() {
   require_phase(SessionPhase::kFeedback, "giving feedback");
   std::vector<bool> present;
-  for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent);
+  for (const Attendance seat : attendance_) present.push_back(seat == Attendance::kPresent);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "feedback cannot be given: everybody is away"};
   std::vector<std::vector<Answer>> answers;
   for (std::size_t i = 0; i < num_members(); ++i) {
@@ -448,10 +449,10 @@ void Session::conclude_period(const Feedback& feedback) {
     if (!options_.review) taught_before_ = taught_with_unit_;
     std::fill(right_in_a_row_.begin(), right_in_a_row_.end(), 0);
     ++component_;
-    std::replace(seats_.begin(), seats_.end(), Seat::kReleased, Seat::kReturning);
+    std::replace(attendance_.begin(), attendance_.end(), Attendance::kReleased, Attendance::kReturning);
   }
   for (const auto member : feedback.released) {
-    if (seats_[member] == Seat::kPresent) seats_[member] = Seat::kReleased;
+    if (attendance_[member] == Attendance::kPresent) attendance_[member] = Attendance::kReleased;
   }
   const bool more = std::find(components_.begin(), components_.end(), ComponentStatus::kOpen) != components_.end();
   phase_ = SessionPhase::kProposal;

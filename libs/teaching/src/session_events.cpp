@@ -18,27 +18,27 @@ std::string_view name_of(const SessionEvent& event) noexcept {
 void Session::leave(std::size_t member) {
   require_seat(member);
   if (finished()) throw Error{ErrorKind::kUsage, "nobody can leave: the session is finished"};
-  if (seats_[member] == Seat::kAway) refuse("member " + std::to_string(member + 1) + " is away already");
+  if (attendance_[member] == Attendance::kAway) refuse("member " + std::to_string(member + 1) + " is away already");
   events_.push_back(events_.prepare(MemberLeft{member}));
-  seats_[member] = Seat::kAway;
+  attendance_[member] = Attendance::kAway;
 }
 
 void Session::require_away(std::size_t member, std::string_view what) const {
   require_seat(member);
   if (finished()) throw Error{ErrorKind::kUsage, "nobody can " + std::string{what} + ": the session is finished"};
-  if (seats_[member] != Seat::kAway) refuse("member " + std::to_string(member + 1) + " is not away");
+  if (attendance_[member] != Attendance::kAway) refuse("member " + std::to_string(member + 1) + " is not away");
 }
 
 void Session::come_back(std::size_t member) {
   require_away(member, "return");
   events_.push_back(events_.prepare(MemberReturned{member}));
-  seats_[member] = Seat::kReturning;
+  attendance_[member] = Attendance::kReturning;
 }
 
 void Session::replace(std::size_t member) {
   require_away(member, "take a place");
   events_.push_back(events_.prepare(MemberReplaced{member}));
-  seats_[member] = Seat::kReturning;
+  attendance_[member] = Attendance::kReturning;
   is_new_[member] = true;
 }
 
@@ -78,7 +78,7 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
 
 bool operator==(const Session& a, const Session& b) {
   return a.status_ == b.status_ && a.phase_ == b.phase_ && a.component_ == b.component_ &&
-         a.right_in_a_row_ == b.right_in_a_row_ && a.components_ == b.components_ && a.seats_ == b.seats_ &&
+         a.right_in_a_row_ == b.right_in_a_row_ && a.components_ == b.components_ && a.attendance_ == b.attendance_ &&
          a.is_new_ == b.is_new_ && a.visited_ == b.visited_ && a.taught_before_ == b.taught_before_ &&
          a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ && a.pending_ == b.pending_ &&
          a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_ &&

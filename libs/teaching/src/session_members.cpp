@@ -37,7 +37,7 @@ void Session::make_rules(TeachingCache& cache) {
 
 bool Session::awaits_newcomer() const {
   for (std::size_t i = 0; i < num_members(); ++i) {
-    if (is_new_[i] && seats_[i] == Seat::kReturning) return true;
+    if (is_new_[i] && attendance_[i] == Attendance::kReturning) return true;
   }
   return false;
 }
@@ -46,7 +46,7 @@ bool Session::awaits_newcomer() const {
 void Session::admit_newcomers(TeachingCache& cache) {
   const auto& cover = cache.cover(atlas_->prior_cone(), options_.filter.particles);
   for (std::size_t i = 0; i < num_members(); ++i) {
-    if (!is_new_[i] || seats_[i] != Seat::kReturning) continue;
+    if (!is_new_[i] || attendance_[i] != Attendance::kReturning) continue;
     belief_.restart(i, cover);
     if (judged_) judged_->restart(i, cover);
     if (bank_) {

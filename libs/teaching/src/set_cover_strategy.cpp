@@ -20,17 +20,17 @@ class SetCover : public CurriculumStrategy {
 
   // Candidates that have the same of the component's constraints.
   struct Alike {
-    std::uint64_t covered;         // bit i: the component's i-th constraint
-    std::vector<DemoIndex> demos;  // by chance
+    std::uint64_t covered;          // bit i: the component's i-th constraint
+    std::vector<StartIndex> demos;  // by chance
     std::size_t num_taken = 0;
   };
 
-  [[nodiscard]] std::vector<DemoIndex> ranking(const TeachingView& view, RandomStream /*random*/) const override {
+  [[nodiscard]] std::vector<StartIndex> ranking(const TeachingView& view, RandomStream /*random*/) const override {
     const auto& component = view.atlas.knowledge_components()[view.component];
     auto wanted = component.constraints.without(view.atlas.prior()).members();
     if (wanted.size() > 64) wanted.resize(64);
     auto groups = grouped(view, wanted);
-    std::vector<DemoIndex> ranked;
+    std::vector<StartIndex> ranked;
     for (int cover = 0; cover < kCovers; ++cover) {
       std::uint64_t open = wanted.size() == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << wanted.size()) - 1;
       while (open != 0) {
@@ -49,7 +49,7 @@ class SetCover : public CurriculumStrategy {
   }
 
   static std::vector<Alike> grouped(const TeachingView& view, const std::vector<ConstraintIndex>& wanted) {
-    std::map<std::uint64_t, std::vector<std::pair<std::uint64_t, DemoIndex>>> by_cover;
+    std::map<std::uint64_t, std::vector<std::pair<std::uint64_t, StartIndex>>> by_cover;
     const auto chance = RandomStream{0}.split("set cover");
     for (const auto demo : candidates(view)) {
       std::uint64_t covered = 0;

@@ -13,11 +13,11 @@ constexpr std::size_t kStartsPerFacet = 6;
 constexpr double kSlack = 1e-9;  // in the sine of the angle to a boundary, where paths are equally good
 
 // At most so many of them, each as likely as any other, ascending.
-std::vector<DemoIndex> some_of(std::vector<DemoIndex> starts, std::size_t most, const RandomStream& random) {
+std::vector<StartIndex> some_of(std::vector<StartIndex> starts, std::size_t most, const RandomStream& random) {
   if (starts.size() <= most) return starts;
-  const auto chance = [&](DemoIndex demo) { return random.split(demo.value()).address(); };
+  const auto chance = [&](StartIndex demo) { return random.split(demo.value()).address(); };
   std::nth_element(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(most), starts.end(),
-                   [&](DemoIndex a, DemoIndex b) { return chance(a) < chance(b); });
+                   [&](StartIndex a, StartIndex b) { return chance(a) < chance(b); });
   starts.resize(most);
   std::sort(starts.begin(), starts.end());
   return starts;
@@ -43,8 +43,8 @@ KITH_VECTOR_CLONES void add_all(const std::vector<char>& marks, std::vector<char
 
 StartSample StartSample::spread_over_starts(const Atlas& atlas, std::size_t component) {
   const auto& uses_mdp = atlas.knowledge_components()[component].uses_mdp;
-  std::vector<DemoIndex> starts;
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  std::vector<StartIndex> starts;
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (atlas.is_candidate(demo) && uses_mdp[atlas.id(demo).mdp.value()]) starts.push_back(demo);
   }
   starts = some_of(std::move(starts), kStarts, sample_stream());
@@ -58,7 +58,7 @@ StartSample StartSample::spread_over_facets(const Atlas& atlas, std::size_t comp
   const auto& taught = atlas.knowledge_components()[component];
   StartSample sample;
   for (const auto facet : taught.constraints.members()) {
-    std::vector<DemoIndex> starts;
+    std::vector<StartIndex> starts;
     for (const auto demo : atlas.tests_for(facet)) {
       if (taught.uses_mdp[atlas.id(demo).mdp.value()]) starts.push_back(demo);
     }
@@ -69,7 +69,7 @@ StartSample StartSample::spread_over_facets(const Atlas& atlas, std::size_t comp
   return sample;
 }
 
-void StartSample::add(const Atlas& atlas, DemoIndex demo, double weight) {
+void StartSample::add(const Atlas& atlas, StartIndex demo, double weight) {
   const auto known = std::find_if(starts_.begin(), starts_.end(), [&](const Start& one) { return one.demo == demo; });
   if (known != starts_.end()) {
     known->weight += weight;

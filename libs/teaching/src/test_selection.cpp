@@ -12,7 +12,7 @@ namespace {
 // The start states that can test one taught constraint.
 struct Candidates {
   HalfSpace constraint;
-  std::vector<DemoIndex> demos;  // ascending
+  std::vector<StartIndex> demos;  // ascending
   bool exact = true;
 };
 
@@ -31,13 +31,13 @@ double cosine(const HalfSpace& a, const HalfSpace& b) {
 class TestSelection {
  public:
   TestSelection(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
-                VisitedDemos& visited, const RandomStream& random)
+                VisitedStarts& visited, const RandomStream& random)
       : atlas_{atlas},
         component_{component},
         unit_{unit},
         visited_{visited},
         random_{random},
-        is_shown_(atlas.num_demos(), false) {
+        is_shown_(atlas.num_states(), false) {
     for (const auto demo : visited.in_order()) is_shown_[atlas.trajectory_class(demo)] = true;
   }
 
@@ -79,18 +79,18 @@ class TestSelection {
       const std::pair rank{!same_features(other, constraint), -cosine(other, constraint)};
       if (nearest && !(rank < least)) continue;
       const auto demos = atlas_.tests_for(c);
-      if (std::none_of(demos.begin(), demos.end(), [&](DemoIndex demo) { return is_in_component(demo); })) continue;
+      if (std::none_of(demos.begin(), demos.end(), [&](StartIndex demo) { return is_in_component(demo); })) continue;
       nearest = c;
       least = rank;
     }
     return nearest;
   }
 
-  [[nodiscard]] bool is_in_component(DemoIndex demo) const { return component_.uses_mdp[atlas_.id(demo).mdp.value()]; }
+  [[nodiscard]] bool is_in_component(StartIndex demo) const { return component_.uses_mdp[atlas_.id(demo).mdp.value()]; }
 
-  [[nodiscard]] std::vector<DemoIndex> usable(ConstraintIndex c) const {
-    std::vector<DemoIndex> all;
-    std::vector<DemoIndex> fresh;
+  [[nodiscard]] std::vector<StartIndex> usable(ConstraintIndex c) const {
+    std::vector<StartIndex> all;
+    std::vector<StartIndex> fresh;
     for (const auto demo : atlas_.tests_for(c)) {
       if (!is_in_component(demo)) continue;
       all.push_back(demo);
@@ -101,13 +101,13 @@ class TestSelection {
 
   // The start that tests most of the open constraints, if it tests at least two; they are closed.
   std::optional<Test> covering_several(std::vector<Candidates>& open) {
-    std::vector<DemoIndex> all;
+    std::vector<StartIndex> all;
     for (const auto& candidates : open) all.insert(all.end(), candidates.demos.begin(), candidates.demos.end());
     std::sort(all.begin(), all.end());
     std::size_t most = 1;
-    std::vector<DemoIndex> best;
+    std::vector<StartIndex> best;
     for (auto run = all.begin(); run != all.end();) {
-      const auto end = std::find_if(run, all.end(), [&](DemoIndex d) { return d != *run; });
+      const auto end = std::find_if(run, all.end(), [&](StartIndex d) { return d != *run; });
       const auto count = static_cast<std::size_t>(end - run);
       if (count > most) best.clear();
       if (count >= std::max<std::size_t>(most, 2)) best.push_back(*run);
@@ -140,8 +140,8 @@ class TestSelection {
   }
 
   // Most complex, then least like the unit's demonstrations on average, then chance.
-  [[nodiscard]] DemoIndex most_complex(const std::vector<DemoIndex>& demos) const {
-    DemoIndex best;
+  [[nodiscard]] StartIndex most_complex(const std::vector<StartIndex>& demos) const {
+    StartIndex best;
     std::optional<VisualKey> best_key;
     for (const auto demo : demos) {
       const auto id = atlas_.id(demo);
@@ -160,7 +160,7 @@ class TestSelection {
   const Atlas& atlas_;
   const KnowledgeComponent& component_;
   const std::vector<Demonstration>& unit_;
-  VisitedDemos& visited_;
+  VisitedStarts& visited_;
   const RandomStream& random_;
   std::vector<bool> is_shown_;  // by trajectory class, of which there are no more than demonstrations
 };
@@ -168,7 +168,7 @@ class TestSelection {
 }  // namespace
 
 TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
-                        const std::vector<HalfSpace>& taught, VisitedDemos& visited, RandomStream random) {
+                        const std::vector<HalfSpace>& taught, VisitedStarts& visited, RandomStream random) {
   return TestSelection{atlas, component, unit, visited, random}.choose(taught);
 }
 

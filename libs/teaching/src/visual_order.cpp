@@ -6,22 +6,22 @@ namespace kith {
 namespace {
 
 // To the last demonstration, or to its world if it opens the unit: what is typical comes first.
-int dissimilarity(const Atlas& atlas, DemoIndex demo, const std::vector<Demonstration>& unit) {
+int dissimilarity(const Atlas& atlas, StartIndex demo, const std::vector<Demonstration>& unit) {
   if (unit.empty()) return atlas.mean_dissimilarity(demo);
   return atlas.domain().dissimilarity(atlas.id(demo), atlas.id(unit.back().demo));
 }
 
 }  // namespace
 
-bool has_unvisited(const Atlas& atlas, DemoClassIndex c, const VisitedDemos& visited) {
+bool has_unvisited(const Atlas& atlas, StartClassIndex c, const VisitedStarts& visited) {
   const auto members = atlas.members(c);
-  return std::any_of(members.begin(), members.end(), [&](DemoIndex d) { return !visited.contains(d); });
+  return std::any_of(members.begin(), members.end(), [&](StartIndex d) { return !visited.contains(d); });
 }
 
-DemoIndex simplest_of(const Atlas& atlas, std::span<const DemoClassIndex> classes, const VisitedDemos& visited,
-                      const std::vector<Demonstration>& unit, const RandomStream& random) {
+StartIndex simplest_of(const Atlas& atlas, std::span<const StartClassIndex> classes, const VisitedStarts& visited,
+                       const std::vector<Demonstration>& unit, const RandomStream& random) {
   std::optional<VisualKey> best_key;
-  DemoIndex best;
+  StartIndex best;
   for (const auto c : classes) {
     for (const auto demo : atlas.members(c)) {
       if (visited.contains(demo)) continue;

@@ -8,7 +8,7 @@
 #include "kith/bec/atlas.hpp"
 #include "kith/random/stream.hpp"
 #include "kith/teaching/lesson.hpp"
-#include "kith/teaching/visited_demos.hpp"
+#include "kith/teaching/visited_starts.hpp"
 
 namespace kith {
 
@@ -21,17 +21,17 @@ struct VisualKey {
 };
 
 // The last resort among equals, the same for a demonstration whoever else is there.
-[[nodiscard]] inline std::uint64_t chance_of(DemoIndex demo, const RandomStream& random) {
+[[nodiscard]] inline std::uint64_t chance_of(StartIndex demo, const RandomStream& random) {
   return random.split(demo.value()).address();
 }
 
 // Whether some member of the class was not met yet.
-[[nodiscard]] bool has_unvisited(const Atlas& atlas, DemoClassIndex c, const VisitedDemos& visited);
+[[nodiscard]] bool has_unvisited(const Atlas& atlas, StartClassIndex c, const VisitedStarts& visited);
 
 // The demonstration to show next in a unit, of those of the classes that were not met yet: the simplest picture most
 // similar to the last one, then chance. @pre some member of some class was not met yet.
-[[nodiscard]] DemoIndex simplest_of(const Atlas& atlas, std::span<const DemoClassIndex> classes,
-                                    const VisitedDemos& visited, const std::vector<Demonstration>& unit,
-                                    const RandomStream& random);
+[[nodiscard]] StartIndex simplest_of(const Atlas& atlas, std::span<const StartClassIndex> classes,
+                                     const VisitedStarts& visited, const std::vector<Demonstration>& unit,
+                                     const RandomStream& random);
 
 }  // namespace kith

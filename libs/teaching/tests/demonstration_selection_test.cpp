@@ -28,7 +28,7 @@ ParticleBelief initial_belief() {
 std::vector<HalfSpace> prior_region() { return item_delivery().prior_cone().minimal_set(); }
 
 Unit selected_unit(const ParticleBelief& belief, const KnowledgeComponent& component, std::span<const HalfSpace> taught,
-                   const VisitedDemos& visited, std::uint64_t seed) {
+                   const VisitedStarts& visited, std::uint64_t seed) {
   TeachingCache cache{item_delivery()};
   return select_demonstrations(cache, belief, component, taught, visited, {}, RandomStream{seed});
 }
@@ -75,11 +75,11 @@ struct Ranked {
   int unlike = 0;
 };
 
-std::map<DemoIndex, Ranked> ranked_starts(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells,
-                                          const std::vector<HalfSpace>& taught, const VisitedDemos& visited) {
+std::map<StartIndex, Ranked> ranked_starts(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells,
+                                           const std::vector<HalfSpace>& taught, const VisitedStarts& visited) {
   const auto& atlas = item_delivery();
-  std::map<DemoClassIndex, Ranked> of_class;
-  for (const auto c : component.demo_classes) {
+  std::map<StartClassIndex, Ranked> of_class;
+  for (const auto c : component.start_classes) {
     auto both = taught;
     for (const auto& half_space : atlas.constraints().half_spaces(atlas.tables().conveyed(c, cells)))
       both.push_back(half_space);
@@ -91,7 +91,7 @@ std::map<DemoIndex, Ranked> ranked_starts(const KnowledgeComponent& component, s
     }
     if (ranked.gain > 1.0 + 1e-6) of_class.emplace(c, ranked);
   }
-  std::map<DemoIndex, Ranked> result;
+  std::map<StartIndex, Ranked> result;
   for (auto& [c, ranked] : of_class) {
     for (const auto demo : atlas.members(c)) {
       if (visited.contains(demo)) continue;
@@ -105,16 +105,16 @@ std::map<DemoIndex, Ranked> ranked_starts(const KnowledgeComponent& component, s
 
 // Those that come first before chance decides: fewest new facets, then the largest gain, then the simplest picture,
 // then the most typical one of its world.
-std::set<DemoIndex> best_of(const std::map<DemoIndex, Ranked>& ranked) {
+std::set<StartIndex> best_of(const std::map<StartIndex, Ranked>& ranked) {
   std::size_t fewest = ranked.begin()->second.num_new;
   for (const auto& [demo, one] : ranked) fewest = std::min(fewest, one.num_new);
   double gain = 0.0;
   for (const auto& [demo, one] : ranked) gain = one.num_new == fewest ? std::max(gain, one.gain) : gain;
-  std::set<std::tuple<int, int, DemoIndex>> equal;
+  std::set<std::tuple<int, int, StartIndex>> equal;
   for (const auto& [demo, one] : ranked) {
     if (one.num_new == fewest && one.gain >= gain * (1.0 - kSameArea)) equal.insert({one.complexity, one.unlike, demo});
   }
-  std::set<DemoIndex> best;
+  std::set<StartIndex> best;
   const auto [complexity, unlike, first] = *equal.begin();
   for (const auto& [c, u, demo] : equal) {
     if (c == complexity && u == unlike) best.insert(demo);
@@ -126,7 +126,7 @@ TEST(SelectDemonstrations, BeginsWithFewNewFactsThenGainThenSimplicity) {
   const auto& atlas = item_delivery();
   const auto belief = initial_belief();
   const auto taught = prior_region();
-  const VisitedDemos none{atlas.num_demos()};
+  const VisitedStarts none{atlas.num_states()};
   for (const auto& component : atlas.knowledge_components()) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const auto unit = selected_unit(belief, component, taught, none, seed);
@@ -149,10 +149,10 @@ TEST(SelectDemonstrations, BeginsWithFewNewFactsThenGainThenSimplicity) {
 TEST(SelectDemonstrations, EachAddsSomethingAndTogetherTheyGiveTheTaughtRegion) {
   const auto& atlas = item_delivery();
   for (const auto& component : atlas.knowledge_components()) {
-    const auto unit = selected_unit(initial_belief(), component, prior_region(), VisitedDemos{atlas.num_demos()}, 7);
+    const auto unit = selected_unit(initial_belief(), component, prior_region(), VisitedStarts{atlas.num_states()}, 7);
     double gain = 1.0;
     auto all = prior_region();
-    std::set<DemoIndex> demos;
+    std::set<StartIndex> demos;
     for (const auto& shown : unit.demonstrations) {
       EXPECT_GT(shown.gain, 1.0);
       EXPECT_GT(shown.num_new, 0u);
@@ -173,8 +173,8 @@ TEST(SelectDemonstrations, EachAddsSomethingAndTogetherTheyGiveTheTaughtRegion) 
 TEST(SelectDemonstrations, NeverShowsWhatWasVisited) {
   const auto& atlas = item_delivery();
   const auto& component = atlas.knowledge_components().front();
-  VisitedDemos visited{atlas.num_demos()};
-  std::set<DemoIndex> shown;
+  VisitedStarts visited{atlas.num_states()};
+  std::set<StartIndex> shown;
   for (int round = 0; round < 5; ++round) {
     const auto unit = selected_unit(initial_belief(), component, prior_region(), visited, 11);
     ASSERT_FALSE(unit.demonstrations.empty());
@@ -183,7 +183,7 @@ TEST(SelectDemonstrations, NeverShowsWhatWasVisited) {
       visited.insert(one.demo);
     }
   }
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) visited.insert(demo);
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) visited.insert(demo);
   EXPECT_THAT(selected_unit(initial_belief(), component, prior_region(), visited, 11).demonstrations, IsEmpty());
 }
 
@@ -192,8 +192,8 @@ TEST(SelectDemonstrations, IsEmptyWhereNothingHasGain) {
   auto taught = prior_region();
   for (const auto& half_space : atlas.policy_bec_half_spaces()) taught.push_back(half_space);
   taught = Cone::intersection(taught).value().minimal_set();
-  const auto unit =
-      selected_unit(initial_belief(), atlas.knowledge_components().back(), taught, VisitedDemos{atlas.num_demos()}, 1);
+  const auto unit = selected_unit(initial_belief(), atlas.knowledge_components().back(), taught,
+                                  VisitedStarts{atlas.num_states()}, 1);
   EXPECT_THAT(unit.demonstrations, IsEmpty());
   EXPECT_EQ(unit.taught_region, taught);
 }
@@ -201,7 +201,7 @@ TEST(SelectDemonstrations, IsEmptyWhereNothingHasGain) {
 TEST(SelectDemonstrations, DependsOnTheStreamAndNotOnTheCache) {
   const auto& atlas = item_delivery();
   const auto& component = atlas.knowledge_components().back();
-  const VisitedDemos none{atlas.num_demos()};
+  const VisitedStarts none{atlas.num_states()};
   TeachingCache used{atlas};
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto unit =

@@ -49,24 +49,24 @@ TEST(Exam, IsTheExpectationUnderTheBelief) {
 
 TEST(Exam, SplitsAllStartsIntoThirdsByDifficulty) {
   TeachingCache cache{item_delivery()};
-  std::set<DemoIndex> all;
+  std::set<StartIndex> all;
   for (const auto difficulty : {ExamDifficulty::kLow, ExamDifficulty::kMedium, ExamDifficulty::kHigh}) {
     const auto starts = cache.exam().starts(difficulty);
-    EXPECT_EQ(starts.size(), item_delivery().num_demos() / 3);
+    EXPECT_EQ(starts.size(), item_delivery().num_states() / 3);
     all.insert(starts.begin(), starts.end());
   }
-  EXPECT_EQ(all.size(), item_delivery().num_demos());
+  EXPECT_EQ(all.size(), item_delivery().num_states());
 }
 
 TEST(Exam, AsksPeopleAboutStartsThatTheyHaveNotMet) {
   TeachingCache cache{item_delivery()};
   const auto starts = cache.exam().starts(ExamDifficulty::kLow);
-  const std::vector<DemoIndex> seen(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(starts.size() / 2));
+  const std::vector<StartIndex> seen(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(starts.size() / 2));
   const auto questions = cache.exam().questions(9, seen, RandomStream{5});
   ASSERT_EQ(questions.size(), 9u);
   EXPECT_EQ(questions, cache.exam().questions(9, seen, RandomStream{5}));
   for (const auto question : questions) EXPECT_EQ(std::count(seen.begin(), seen.end(), question), 0);
-  const auto low = std::count_if(questions.begin(), questions.end(), [&](DemoIndex demo) {
+  const auto low = std::count_if(questions.begin(), questions.end(), [&](StartIndex demo) {
     return std::binary_search(starts.begin(), starts.end(), demo);
   });
   EXPECT_EQ(low, 3);
@@ -84,7 +84,7 @@ TEST(Exam, TakesASampleOfStartsWhereNothingIsTabulated) {
 
 TEST(Exam, GradesAnAnswerByItsReturn) {
   const auto& atlas = item_delivery();
-  const DemoIndex start{100};
+  const StartIndex start{100};
   EXPECT_EQ(grade_answer(atlas, start, atlas.feature_counts(start)), (Grade{1.0, 0.0}));
   const auto none = grade_answer(atlas, start, std::nullopt);
   EXPECT_EQ(none.share_right, 0.0);

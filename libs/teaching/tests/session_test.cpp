@@ -43,7 +43,7 @@ std::vector<std::vector<Answer>> all_right(const Session& session) {
 }
 
 // A path that is worse than the robot's: another vertex of the coverage set.
-IntegerVector worse_answer(DemoIndex test) {
+IntegerVector worse_answer(StartIndex test) {
   for (const auto& vertex : item_delivery().tables().coverage_set(test)) {
     if (vertex != item_delivery().feature_counts(test)) return vertex;
   }
@@ -89,7 +89,7 @@ TEST_P(EveryStrategy, AnUnlearnedComponentIsNeverLeft) {
 TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
   const auto& atlas = item_delivery();
   auto session = make_session(cache_, GetParam(), team_size());
-  std::vector<bool> visited(atlas.num_demos(), false);
+  std::vector<bool> visited(atlas.num_states(), false);
   for (std::size_t period = 1; !session.finished() && period <= 12; ++period) {
     const auto lesson = session.lesson();
     const auto& component = atlas.knowledge_components()[lesson.component];
@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryStrategy, ::testing::ValuesIn([] {
 
 // All beliefs about a team of one are that member's.
 TEST(Session, ATeamOfOneIsTaughtAlikeForEveryBelief) {
-  std::vector<std::vector<DemoIndex>> shown;
+  std::vector<std::vector<StartIndex>> shown;
   for (const auto* name : {"baseline", "individual-low", "individual-high", "common", "joint"}) {
     TeachingCache cache{item_delivery()};
     auto session = make_session(cache, name, 1);

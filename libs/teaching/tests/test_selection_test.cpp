@@ -52,22 +52,22 @@ halfspaces = [ { puddle = -1 }, { goal = 1 }, { step = -1 } ]
 
 const KnowledgeComponent& last_component(const Atlas& atlas) { return atlas.knowledge_components().back(); }
 
-bool is_in(const Atlas& atlas, const KnowledgeComponent& component, DemoIndex demo) {
+bool is_in(const Atlas& atlas, const KnowledgeComponent& component, StartIndex demo) {
   return component.uses_mdp[atlas.id(demo).mdp.value()];
 }
 
 // The starts that can test a constraint, by definition: somebody who differs only in it answers differently, and the
 // robot's path shows it. Starts whose pictures were shown before count only if there are no others.
-std::set<DemoIndex> testers(const Atlas& atlas, const KnowledgeComponent& component, const HalfSpace& constraint,
-                            const VisitedDemos& visited) {
-  std::set<DemoIndex> all, fresh;
+std::set<StartIndex> testers(const Atlas& atlas, const KnowledgeComponent& component, const HalfSpace& constraint,
+                             const VisitedStarts& visited) {
+  std::set<StartIndex> all, fresh;
   const auto number = atlas.constraints().find(constraint);
   if (!number) return {};
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo) || !is_in(atlas, component, demo)) continue;
     if (!atlas.one_step(demo).contains(*number) || !atlas.tables().robot_cell_facets(demo).contains(*number)) continue;
     all.insert(demo);
-    const bool shown = std::any_of(visited.in_order().begin(), visited.in_order().end(), [&](DemoIndex one) {
+    const bool shown = std::any_of(visited.in_order().begin(), visited.in_order().end(), [&](StartIndex one) {
       return atlas.trajectory_class(one) == atlas.trajectory_class(demo);
     });
     if (!shown) fresh.insert(demo);
@@ -76,22 +76,22 @@ std::set<DemoIndex> testers(const Atlas& atlas, const KnowledgeComponent& compon
 }
 
 // Of some starts those that come first before chance decides: the most complex, then the least like the unit's.
-std::set<DemoIndex> first_by_looks(const Atlas& atlas, const std::set<DemoIndex>& demos,
-                                   const std::vector<Demonstration>& unit) {
-  std::set<std::pair<std::pair<int, int>, DemoIndex>> ranked;
+std::set<StartIndex> first_by_looks(const Atlas& atlas, const std::set<StartIndex>& demos,
+                                    const std::vector<Demonstration>& unit) {
+  std::set<std::pair<std::pair<int, int>, StartIndex>> ranked;
   for (const auto demo : demos) {
     int unlike = 0;
     for (const auto& shown : unit) unlike += atlas.domain().dissimilarity(atlas.id(demo), atlas.id(shown.demo));
     ranked.insert({{-atlas.domain().complexity(atlas.id(demo)), -unlike}, demo});
   }
-  std::set<DemoIndex> first;
+  std::set<StartIndex> first;
   for (const auto& [key, demo] : ranked) {
     if (key == ranked.begin()->first) first.insert(demo);
   }
   return first;
 }
 
-std::vector<Demonstration> showing(DemoIndex demo) {
+std::vector<Demonstration> showing(StartIndex demo) {
   Demonstration shown;
   shown.demo = demo;
   return {shown};
@@ -102,7 +102,7 @@ TEST(SelectTests, CoversEveryConstraintOrCountsIt) {
   for (const auto& component : atlas.knowledge_components()) {
     auto taught = atlas.constraints().half_spaces(component.constraints);
     std::sort(taught.begin(), taught.end());
-    VisitedDemos visited{atlas.num_demos()};
+    VisitedStarts visited{atlas.num_states()};
     const auto choice = select_tests(atlas, component, {}, taught, visited, RandomStream{1});
     ASSERT_LE(choice.tests.size() + choice.untested, taught.size());
     const auto uncovered = std::count_if(taught.begin(), taught.end(), [&](const HalfSpace& constraint) {
@@ -124,7 +124,7 @@ TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
   const auto& component = last_component(atlas);
   // What the start with the most constraints tests, and what determines the policy.
   ConstraintSet several = atlas.no_constraints();
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     auto both = atlas.no_constraints();
     for (const auto c : atlas.tables().robot_cell_facets(demo).members()) {
@@ -134,15 +134,15 @@ TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
   }
   auto taught = atlas.constraints().half_spaces(several | atlas.policy_bec());
   std::sort(taught.begin(), taught.end());
-  const VisitedDemos none{atlas.num_demos()};
-  std::vector<std::size_t> count(atlas.num_demos());
+  const VisitedStarts none{atlas.num_states()};
+  std::vector<std::size_t> count(atlas.num_states());
   for (const auto& constraint : taught) {
     for (const auto demo : testers(atlas, component, constraint, none)) ++count[demo.value()];
   }
   const auto most = *std::max_element(count.begin(), count.end());
   ASSERT_GE(most, 2u);
-  std::set<DemoIndex> best;
-  for (DemoIndex demo{0}; demo.value() < count.size(); ++demo) {
+  std::set<StartIndex> best;
+  for (StartIndex demo{0}; demo.value() < count.size(); ++demo) {
     if (count[demo.value()] == most) best.insert(demo);
   }
   auto visited = none;
@@ -155,13 +155,13 @@ TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
 TEST(SelectTests, TakesTheMostComplexThenTheLeastAlikeThenChance) {
   const auto& atlas = item_delivery();
   const auto& component = last_component(atlas);
-  const auto unit = showing(DemoIndex{4000});
+  const auto unit = showing(StartIndex{4000});
   for (const auto& constraint : atlas.policy_bec_half_spaces()) {
     const auto first =
-        first_by_looks(atlas, testers(atlas, component, constraint, VisitedDemos{atlas.num_demos()}), unit);
-    std::set<DemoIndex> chosen;
+        first_by_looks(atlas, testers(atlas, component, constraint, VisitedStarts{atlas.num_states()}), unit);
+    std::set<StartIndex> chosen;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
-      VisitedDemos visited{atlas.num_demos()};
+      VisitedStarts visited{atlas.num_states()};
       const auto choice = select_tests(atlas, component, unit, {constraint}, visited, RandomStream{seed});
       ASSERT_EQ(choice.tests.size(), 1u);
       EXPECT_TRUE(choice.tests[0].exact);
@@ -177,10 +177,10 @@ TEST(SelectTests, PrefersPicturesThatWereNotShown) {
   const auto& atlas = item_delivery();
   const auto& component = last_component(atlas);
   const std::vector<HalfSpace> taught{atlas.policy_bec_half_spaces().front()};
-  const auto all = testers(atlas, component, taught.front(), VisitedDemos{atlas.num_demos()});
+  const auto all = testers(atlas, component, taught.front(), VisitedStarts{atlas.num_states()});
   std::set<std::uint32_t> classes;
   for (const auto demo : all) classes.insert(atlas.trajectory_class(demo));
-  VisitedDemos visited{atlas.num_demos()};
+  VisitedStarts visited{atlas.num_states()};
   std::set<std::uint32_t> asked;
   for (std::size_t i = 0; i < std::min<std::size_t>(classes.size(), 30); ++i) {
     const auto choice = select_tests(atlas, component, {}, taught, visited, RandomStream{5});
@@ -197,7 +197,7 @@ TEST(SelectTests, PrefersPicturesThatWereNotShown) {
 TEST(SelectTests, LetsTheNearestConstraintStandIn) {
   const auto& atlas = item_delivery();
   const auto& component = last_component(atlas);
-  const VisitedDemos none{atlas.num_demos()};
+  const VisitedStarts none{atlas.num_states()};
   const HalfSpace odd{IntegerVector{-100, 0, 203}};
   ASSERT_THAT(testers(atlas, component, odd, none), IsEmpty());
   double least = 10.0;
@@ -225,7 +225,7 @@ TEST(SelectTests, CountsWhatNothingCanTest) {
   const auto& atlas = item_delivery();
   auto nowhere = last_component(atlas);
   nowhere.uses_mdp.assign(nowhere.uses_mdp.size(), false);
-  VisitedDemos visited{atlas.num_demos()};
+  VisitedStarts visited{atlas.num_states()};
   const auto choice = select_tests(atlas, nowhere, {}, atlas.policy_bec_half_spaces(), visited, RandomStream{1});
   EXPECT_THAT(choice.tests, IsEmpty());
   EXPECT_EQ(choice.untested, atlas.policy_bec_half_spaces().size());
@@ -241,13 +241,13 @@ TEST(SelectTests, FindsTheOnlyStartThatAsksAboutThePuddle) {
   std::vector<Cell> cells;
   const auto number = atlas.constraints().find(puddle);
   ASSERT_TRUE(number);
-  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.tested_constraints(demo).contains(*number)) continue;
     EXPECT_EQ(atlas.id(demo).mdp, MdpIndex{1});
     cells.push_back(map.state(MdpIndex{1}, atlas.id(demo).start).robot);
   }
   EXPECT_THAT(cells, ElementsAre(Cell{1, 1}));
-  VisitedDemos visited{atlas.num_demos()};
+  VisitedStarts visited{atlas.num_states()};
   const auto& components = atlas.knowledge_components();
   const auto component =
       std::find_if(components.begin(), components.end(), [](const auto& c) { return c.uses_mdp[1]; });
@@ -255,7 +255,7 @@ TEST(SelectTests, FindsTheOnlyStartThatAsksAboutThePuddle) {
   const auto choice = select_tests(atlas, *component, {}, {puddle}, visited, RandomStream{1});
   ASSERT_EQ(choice.tests.size(), 1u);
   EXPECT_TRUE(choice.tests[0].exact);
-  EXPECT_EQ(atlas.id(choice.tests[0].demo), (DemoId{MdpIndex{1}, atlas.domain().initial_state(MdpIndex{1})}));
+  EXPECT_EQ(atlas.id(choice.tests[0].demo), (StartId{MdpIndex{1}, atlas.domain().initial_state(MdpIndex{1})}));
   // There is no other start: the same one is asked again.
   const auto again = select_tests(atlas, *component, {}, {puddle}, visited, RandomStream{2});
   ASSERT_EQ(again.tests.size(), 1u);

@@ -29,7 +29,7 @@ class Inattentive final : public Learner {
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period) override {
     if (period <= attentive_periods_) person_->watch(half_spaces, period);
   }
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     return person_->answer(behaviours, tests, period);
   }
@@ -63,7 +63,7 @@ class Guesser final : public Learner {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<Guesser>(*this); }
   void begin_component() override {}
   void watch(std::span<const HalfSpace> /*half_spaces*/, std::size_t /*period*/) override {}
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override {
     Response response;
     auto random = random_.split("answer").split(period);
@@ -78,7 +78,7 @@ class Guesser final : public Learner {
   [[nodiscard]] double mass_in(std::span<const HalfSpace> /*half_spaces*/) const override { return 0.0; }
 
  private:
-  [[nodiscard]] IntegerVector path(const Atlas& atlas, DemoIndex test, RandomStream& random) const {
+  [[nodiscard]] IntegerVector path(const Atlas& atlas, StartIndex test, RandomStream& random) const {
     const auto& robot = atlas.feature_counts(test);
     const auto& losses = atlas.tables().hull(atlas.tables().hull(test)).losses;
     const auto step = robot.size() - 1;

@@ -63,47 +63,49 @@ class Atlas {
 
   // --- demonstrations -------------------------------------------------------
   /// Of all non-terminal states; not all need be candidates.
-  [[nodiscard]] std::size_t num_demos() const noexcept { return demos_.size(); }
+  [[nodiscard]] std::size_t num_states() const noexcept { return demos_.size(); }
   /// Whether demonstrations and tests may start there (Domain::starts()).
-  [[nodiscard]] bool is_candidate(DemoIndex demo) const { return demos_[demo.value()].demo_class != kNoClass; }
-  [[nodiscard]] DemoId id(DemoIndex demo) const { return demos_[demo.value()].id; }
-  [[nodiscard]] DemoIndex index(DemoId id) const { return DemoIndex{first_demo_[id.mdp.value()] + id.start.value()}; }
+  [[nodiscard]] bool is_candidate(StartIndex demo) const { return demos_[demo.value()].start_class != kNoClass; }
+  [[nodiscard]] StartId id(StartIndex demo) const { return demos_[demo.value()].id; }
+  [[nodiscard]] StartIndex index(StartId id) const {
+    return StartIndex{first_demo_[id.mdp.value()] + id.start.value()};
+  }
   /// The robot's canonical path, of at least one action; the likeliest where chance has a part. A robot that never ends
   /// goes round in a cycle.
-  [[nodiscard]] Trajectory trajectory(DemoIndex demo) const;
+  [[nodiscard]] Trajectory trajectory(StartIndex demo) const;
   /// The states of that path that are not terminal, as demonstrations of their own, in order; those of a cycle once.
-  [[nodiscard]] std::vector<DemoIndex> path(DemoIndex demo) const;
+  [[nodiscard]] std::vector<StartIndex> path(StartIndex demo) const;
   /// What the robot does in the start state.
-  [[nodiscard]] ActionIndex action(DemoIndex demo) const;
+  [[nodiscard]] ActionIndex action(StartIndex demo) const;
   /// The next state on that path, as a demonstration of its own; nothing where the path ends. Following it never ends
   /// where the path does not.
-  [[nodiscard]] std::optional<DemoIndex> next(DemoIndex demo) const {
+  [[nodiscard]] std::optional<StartIndex> next(StartIndex demo) const {
     const auto at = demos_[demo.value()].next;
-    return at == kTerminal ? std::nullopt : std::optional{DemoIndex{at}};
+    return at == kTerminal ? std::nullopt : std::optional{StartIndex{at}};
   }
   /// The number of actions of the cycle that the start state lies on, where the path never ends; 0: on none.
-  [[nodiscard]] std::size_t cycle_length(DemoIndex demo) const { return demos_[demo.value()].cycle_length; }
+  [[nodiscard]] std::size_t cycle_length(StartIndex demo) const { return demos_[demo.value()].cycle_length; }
   /// mu of the robot's path, or its expectation, shape [d].
-  [[nodiscard]] const IntegerVector& feature_counts(DemoIndex demo) const { return demos_[demo.value()].counts; }
+  [[nodiscard]] const IntegerVector& feature_counts(StartIndex demo) const { return demos_[demo.value()].counts; }
   /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].
   /// @param choice  position in Mdp::choices() of the start.
   /// @throws std::invalid_argument if there is no such choice.
-  [[nodiscard]] IntegerVector deviation_counts(DemoIndex demo, std::size_t choice) const;
+  [[nodiscard]] IntegerVector deviation_counts(StartIndex demo, std::size_t choice) const;
   /// Whether the robot's optimal path is unique (ties in features or not).
-  [[nodiscard]] bool is_unique(DemoIndex demo) const { return demos_[demo.value()].unique; }
+  [[nodiscard]] bool is_unique(StartIndex demo) const { return demos_[demo.value()].unique; }
   /// Whether some optimal action besides the canonical one exists in the start state itself.
-  [[nodiscard]] bool has_tie(DemoIndex demo) const { return demos_[demo.value()].tie; }
+  [[nodiscard]] bool has_tie(StartIndex demo) const { return demos_[demo.value()].tie; }
   /// Minimal set of what the path shows: the one-step deviation constraints, mu_robot(s_t) - mu(s_t, b) for every state
   /// s_t of the path and every action b, and, where behaviours are not tabulated and candidates' paths do not meet
   /// every state, comparisons of the path with whole paths of people who would satisfy all of these. @pre
   /// is_candidate(demo).
-  [[nodiscard]] const ConstraintSet& one_step(DemoIndex demo) const {
+  [[nodiscard]] const ConstraintSet& one_step(StartIndex demo) const {
     return one_step_sets_[demos_[demo.value()].one_step];
   }
   /// Equal for demonstrations that look the same: same pictures, same actions.
-  [[nodiscard]] std::uint32_t trajectory_class(DemoIndex demo) const { return demos_[demo.value()].trajectory_class; }
+  [[nodiscard]] std::uint32_t trajectory_class(StartIndex demo) const { return demos_[demo.value()].trajectory_class; }
   /// Mean dissimilarity of the start picture to all others of the same MDP, rounded.
-  [[nodiscard]] int mean_dissimilarity(DemoIndex demo) const { return demos_[demo.value()].mean_dissimilarity; }
+  [[nodiscard]] int mean_dissimilarity(StartIndex demo) const { return demos_[demo.value()].mean_dissimilarity; }
 
   // --- the robot's policy ---------------------------------------------------
   /// Minimal set of all one_step(): the behaviour equivalence class of the policy.
@@ -124,28 +126,28 @@ class Atlas {
   [[nodiscard]] const std::vector<std::size_t>& mask_counters() const noexcept { return mask_counters_; }
 
   // --- classes that convey the same -----------------------------------------
-  [[nodiscard]] std::size_t num_demo_classes() const noexcept { return classes_.size(); }
-  [[nodiscard]] DemoClassIndex demo_class(DemoIndex demo) const { return demos_[demo.value()].demo_class; }
+  [[nodiscard]] std::size_t num_start_classes() const noexcept { return classes_.size(); }
+  [[nodiscard]] StartClassIndex start_class(StartIndex demo) const { return demos_[demo.value()].start_class; }
   /// In ascending order; all are candidates.
-  [[nodiscard]] std::span<const DemoIndex> members(DemoClassIndex c) const { return classes_[c.value()]; }
+  [[nodiscard]] std::span<const StartIndex> members(StartClassIndex c) const { return classes_[c.value()]; }
   [[nodiscard]] std::size_t words_per_set() const noexcept { return (constraints_.size() + 63) / 64; }
 
   // --- tests ----------------------------------------------------------------
   /// Constraints that a right answer shows: BehaviourTables::robot_cell_facets() where behaviours are tabulated, else
   /// one_step(), of which they are some. @pre is_candidate(demo).
-  [[nodiscard]] const ConstraintSet& tested_constraints(DemoIndex demo) const {
+  [[nodiscard]] const ConstraintSet& tested_constraints(StartIndex demo) const {
     return tables_ ? tables_->robot_cell_facets(demo) : one_step(demo);
   }
   /// Demonstrations whose one-step set contains c and, where behaviours are tabulated, whose start discriminates c (it
   /// is a facet of the robot's cell there): what can test c. Ascending; none for constraints that are not in
   /// constraints().
-  [[nodiscard]] std::span<const DemoIndex> tests_for(ConstraintIndex c) const {
+  [[nodiscard]] std::span<const StartIndex> tests_for(ConstraintIndex c) const {
     if (c.value() >= tests_for_.size()) return {};
     return tests_for_[c.value()];
   }
 
   /// The same atlas without some tests: tests_for() lists only demonstrations of which `is_usable` is true.
-  /// @param is_usable  shape [num_demos]. @throws std::invalid_argument for another shape.
+  /// @param is_usable  shape [num_states]. @throws std::invalid_argument for another shape.
   [[nodiscard]] Atlas with_tests(const std::vector<bool>& is_usable) const;
 
   /// The set of all constraints in the table that are empty: a fresh set of the right size.
@@ -154,17 +156,17 @@ class Atlas {
  private:
   friend class AtlasBuilder;
   static constexpr std::uint32_t kTerminal = 0xFFFFFFFF;
-  static constexpr DemoClassIndex kNoClass{0xFFFFFFFF};
+  static constexpr StartClassIndex kNoClass{0xFFFFFFFF};
 
   struct Demo {
-    DemoId id;
+    StartId id;
     IntegerVector counts;
     bool unique = true;
     bool tie = false;
     std::uint32_t one_step = 0;  // row of one_step_sets_
     std::uint32_t trajectory_class = 0;
     int mean_dissimilarity = 0;
-    DemoClassIndex demo_class = kNoClass;
+    StartClassIndex start_class = kNoClass;
     std::uint32_t next = kTerminal;  // demo index of the next state on the path
     std::uint32_t cycle_length = 0;  // of the cycle that the start state lies on; 0: on none
   };
@@ -188,8 +190,8 @@ class Atlas {
   std::optional<double> regret_left_;
   std::vector<KnowledgeComponent> components_;
   std::vector<std::size_t> mask_counters_;
-  std::vector<std::vector<DemoIndex>> classes_;
-  std::vector<std::vector<DemoIndex>> tests_for_;
+  std::vector<std::vector<StartIndex>> classes_;
+  std::vector<std::vector<StartIndex>> tests_for_;
 };
 
 }  // namespace kith

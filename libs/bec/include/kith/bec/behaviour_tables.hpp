@@ -15,7 +15,7 @@
 namespace kith {
 
 /// A (MDP, start) pair's position among all of a domain's, MDP by MDP.
-using DemoIndex = Index<struct DemoTag>;
+using StartIndex = Index<struct StartTag>;
 
 /// What people would do from every start, whatever their weights: the coverage sets, and the policy cell of every
 /// weight, so that "what would this person expect the robot to do?" is a look-up. An Atlas has them where its domain is
@@ -26,7 +26,7 @@ class BehaviourTables {
  public:
   [[nodiscard]] const PolicyCells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::size_t num_hulls() const noexcept { return hulls_.size(); }
-  [[nodiscard]] HullIndex hull(DemoIndex demo) const { return starts_[demo.value()].hull; }
+  [[nodiscard]] HullIndex hull(StartIndex demo) const { return starts_[demo.value()].hull; }
   [[nodiscard]] const Hull& hull(HullIndex h) const { return hulls_[h.value()]; }
 
   /// Vertices of the coverage set of every start state: in all and at most.
@@ -37,21 +37,21 @@ class BehaviourTables {
   };
   [[nodiscard]] const Coverage& coverage() const noexcept { return coverage_; }
   /// The feature counts of the coverage set of a start state, sorted.
-  [[nodiscard]] std::vector<IntegerVector> coverage_set(DemoIndex demo) const;
+  [[nodiscard]] std::vector<IntegerVector> coverage_set(StartIndex demo) const;
   /// Feature counts of the path that a person of this cell takes, or nothing if they have no optimum there.
-  [[nodiscard]] std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell) const;
+  [[nodiscard]] std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) const;
   /// Whether weights have a finite optimum in the demonstration's MDP (strictly inside its region).
-  [[nodiscard]] const Cone& finite_region(DemoIndex demo) const { return hull(hull(demo)).finite_region; }
+  [[nodiscard]] const Cone& finite_region(StartIndex demo) const { return hull(hull(demo)).finite_region; }
   /// Constraints that tell the robot's path from the next best ones at the start: the facets of its cell in the
   /// coverage set.
-  [[nodiscard]] const ConstraintSet& robot_cell_facets(DemoIndex demo) const { return facets_[hull(demo).value()]; }
+  [[nodiscard]] const ConstraintSet& robot_cell_facets(StartIndex demo) const { return facets_[hull(demo).value()]; }
 
   /// What demonstrations convey to people who hold weights of the given cells: per class, one row of words, the union
   /// over cells and over the states s_t of the path of mu_robot(s_t) - mu_learner(s_t). Cells without an optimum in the
-  /// MDP contribute nothing. Shape [Atlas::num_demo_classes(), Atlas::words_per_set()].
+  /// MDP contribute nothing. Shape [Atlas::num_start_classes(), Atlas::words_per_set()].
   [[nodiscard]] std::vector<std::uint64_t> conveyed_by_class(std::span<const PolicyCellIndex> cells) const;
   /// The same for the demonstrations of one class, not reduced.
-  [[nodiscard]] ConstraintSet conveyed(DemoClassIndex demo_class, std::span<const PolicyCellIndex> cells) const;
+  [[nodiscard]] ConstraintSet conveyed(StartClassIndex start_class, std::span<const PolicyCellIndex> cells) const;
 
  private:
   friend class AtlasBuilder;

@@ -9,8 +9,8 @@
 
 namespace kith {
 
-/// Demonstrations that convey the same to everybody; see Atlas::demo_class.
-using DemoClassIndex = Index<struct DemoClassTag>;
+/// Demonstrations that convey the same to everybody; see Atlas::start_class.
+using StartClassIndex = Index<struct StartClassTag>;
 
 /// One piece of what a team is to learn: how the reward trades some features
 /// against the reference feature, taught in the MDPs that lack all others.
@@ -19,8 +19,8 @@ struct KnowledgeComponent {
   std::vector<std::size_t> features;  ///< Their indices, ascending.
   std::vector<std::size_t> masked;    ///< Indices of the features that must not occur, ascending; none for the last.
   std::vector<bool> uses_mdp;         ///< Shape [num_mdps]: whether the MDP lacks the masked features.
-  std::vector<DemoClassIndex> demo_classes;  ///< Those whose members start in such MDPs, ascending.
-  ConstraintSet constraints;                 ///< Minimal set of the one-step constraints of those MDPs.
+  std::vector<StartClassIndex> start_classes;  ///< Those whose members start in such MDPs, ascending.
+  ConstraintSet constraints;                   ///< Minimal set of the one-step constraints of those MDPs.
   double area_sr = 0.0;     ///< Area of the constraints with the prior on the unit sphere; sr for d = 3.
   double area_error = 0.0;  ///< Its standard error; 0 for d = 2 and 3.
 };

@@ -16,10 +16,10 @@
 namespace kith {
 
 /// A demonstration candidate, or a test: one start state of one MDP.
-struct DemoId {
+struct StartId {
   MdpIndex mdp;
   StateIndex start;
-  friend auto operator<=>(const DemoId&, const DemoId&) = default;
+  friend auto operator<=>(const StartId&, const StartId&) = default;
 };
 
 /// How reward weights are scaled when a return is shown to people. Nothing else
@@ -138,13 +138,13 @@ class Domain {
 
   /// How much there is to look at: optional things present in the start state
   /// (terrain cells and stations that are toggled, plus stations still there). 0 without a map.
-  [[nodiscard]] int complexity(DemoId demo) const;
+  [[nodiscard]] int complexity(StartId demo) const;
   /// How different two start pictures are:
   ///   2 * sum |differences of the state's coordinates and flags| (over their common length)
   ///   + number of optional groups other than stations that differ + |difference of station counts|.
   /// Without a map: 2 * sum |differences of the states' variables| (without variables: 2 for different states),
   /// plus 1 for different MDPs.
-  [[nodiscard]] int dissimilarity(DemoId a, DemoId b) const;
+  [[nodiscard]] int dissimilarity(StartId a, StartId b) const;
 
  private:
   std::unique_ptr<const Data> data_;

@@ -32,7 +32,7 @@ enum class Understanding {
 struct TellingAnswer {
   std::size_t period = 0;
   std::size_t test = 0;  ///< 1-based within the period.
-  DemoIndex demo;
+  StartIndex demo;
   /// How many times as probable the answer is from people who violate the constraint as from those who satisfy it,
   /// among all who know the prior; nothing if nobody who satisfies it gives it.
   std::optional<double> factor{};
@@ -46,7 +46,7 @@ struct LikelyMisconception {
   std::string thinks;                  ///< in_words() of the misbelief.
   std::string fact;                    ///< in_words() of the constraint.
   std::vector<TellingAnswer> answers;  ///< The most telling ones, in order of time; may be empty.
-  std::optional<DemoIndex> show{};     ///< The simplest demonstration that conveys the constraint to this person.
+  std::optional<StartIndex> show{};    ///< The simplest demonstration that conveys the constraint to this person.
   std::string reason{};                ///< What it shows; see Contrast.
 };
 
@@ -63,7 +63,7 @@ struct ComponentAudit {
   std::optional<LikelyMisconception> misconception{};
   /// The simplest start that tests what the person gets wrong, or else what is least certain; another one than was
   /// shown or asked before, or is to be shown now, if there is any.
-  std::optional<DemoIndex> test{};
+  std::optional<StartIndex> test{};
   /// With Understanding::kUnderstands: after how many periods without lessons to test again; 0: it will not be needed
   /// within kLongestBreak.
   std::size_t test_after = 0;
@@ -139,8 +139,8 @@ class Auditor {
   [[nodiscard]] std::string answer_in_words(const Test& test, const Answer& answer, const Verdict& verdict) const;
   void choose_demonstration(const MisconceptionBank& bank, std::size_t component,
                             std::span<const ObservedPeriod> periods, LikelyMisconception& misconception);
-  [[nodiscard]] std::optional<DemoIndex> choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
-                                                     std::span<const ObservedPeriod> periods) const;
+  [[nodiscard]] std::optional<StartIndex> choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
+                                                      std::span<const ObservedPeriod> periods) const;
   [[nodiscard]] PersonAudit audit(std::span<const ObservedPeriod> periods, std::shared_ptr<LessonBeliefs> beliefs,
                                   const RandomStream& random);
   void plan_tests(const MisconceptionBank& bank, const RandomStream& random, std::vector<ComponentAudit>& audits) const;

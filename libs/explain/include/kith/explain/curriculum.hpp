@@ -14,7 +14,7 @@ namespace kith {
 
 /// A demonstration as people see it.
 struct CurriculumDemonstration {
-  DemoIndex demo;
+  StartIndex demo;
   std::vector<HalfSpace> conveys;  ///< What it conveys, minimal, sorted; without what is known beforehand.
   HalfSpace main;                  ///< The one that narrows most what was taught before; the reason's.
   Contrast contrast;               ///< With the path that a person who does not know `main` would expect.
@@ -31,7 +31,7 @@ enum class Difficulty { kEasy, kMedium, kHard };
 
 /// A test, and how hard it is for those who have not been taught its component.
 struct CurriculumTest {
-  DemoIndex demo;
+  StartIndex demo;
   std::vector<HalfSpace> covers;  ///< Taught constraints that a right answer shows.
   /// Share of the beliefs that answer right, in [0, 1]: beliefs are uniform over what was known before the component.
   double share_right = 0.0;

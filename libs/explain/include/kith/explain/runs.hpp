@@ -17,7 +17,7 @@ struct PolicyRun {
 
 /// Draws runs of the robot's policy from a start. Nothing if no outcome that can follow is left to chance.
 /// @param n  how many runs.
-[[nodiscard]] std::vector<PolicyRun> several_runs(const Atlas& atlas, DemoIndex start, std::size_t n,
+[[nodiscard]] std::vector<PolicyRun> several_runs(const Atlas& atlas, StartIndex start, std::size_t n,
                                                   RandomStream& random);
 
 /// Some of the runs that stand for all of them, by their length in steps: the middle one first, then shorter and longer

@@ -19,17 +19,17 @@ enum class Purpose {
 /// Whether a demonstration conveys exactly the constraint to those who know the prior: with it, the one-step set of the
 /// path (kTeach) or the facets of the robot's cell in the coverage set of the start (kTest) leave the same weights as
 /// the constraint does.
-[[nodiscard]] bool isolates(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint, Purpose purpose);
+[[nodiscard]] bool isolates(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose);
 
 /// The simplest demonstration that isolates the constraint: the least to look at (Domain::complexity), then the
 /// shortest path, then the lowest index. Nothing if there is none.
-[[nodiscard]] std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint,
-                                                          Purpose purpose);
+[[nodiscard]] std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint,
+                                                           Purpose purpose);
 
 /// Why no demonstration isolates a constraint.
 struct NotIsolated {
   std::size_t conveying = 0;            ///< Starts that teach (or test) it among other things.
-  std::optional<DemoIndex> nearest;     ///< Of those the one with the fewest other things.
+  std::optional<StartIndex> nearest;    ///< Of those the one with the fewest other things.
   std::vector<HalfSpace> besides = {};  ///< What that one conveys besides, without what is known beforehand.
 };
 [[nodiscard]] NotIsolated why_not_isolated(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose);
@@ -64,8 +64,8 @@ struct MadeWorld {
   std::string text;  ///< A domain file with this one world.
   MdpIndex base;     ///< The world of the family that it was made from.
   std::vector<CellChange> changes;
-  Atlas atlas;     ///< Of the new domain.
-  DemoIndex demo;  ///< The simplest of it that isolates the constraint.
+  Atlas atlas;      ///< Of the new domain.
+  StartIndex demo;  ///< The simplest of it that isolates the constraint.
 };
 
 struct MakeWorldOptions {

@@ -23,7 +23,7 @@ struct LoggedPeriod {
   bool feedback = true;               ///< Whether the person heard which answers were right.
   std::vector<HalfSpace> taught;      ///< By the feedback, at the changed ability.
   // What people of other kinds need besides; see fit_kinds(). Only from run folders.
-  std::vector<DemoIndex> shown;    ///< The demonstrations themselves.
+  std::vector<StartIndex> shown;   ///< The demonstrations themselves.
   std::vector<GivenAnswer> given;  ///< The paths that were answered.
   double minutes = 0.0;            ///< How long it took.
 };

@@ -10,7 +10,7 @@ namespace kith {
 
 /// A path that somebody gave as the answer to a test.
 struct GivenAnswer {
-  DemoIndex test;
+  StartIndex test;
   IntegerVector counts;  ///< Of its features.
 };
 

@@ -46,7 +46,7 @@ class BayesianLearner final : public Learner {
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period) override;
   /// All answers come from one weight drawn from the belief among those with a finite optimum in every test; there are
   /// no answers at all if there is no such weight.
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override;
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override;
   /// mass(weights that give exactly these answers) / mass(weights that give any); nothing if the latter is 0.
@@ -75,9 +75,9 @@ class BayesianLearner final : public Learner {
   void learn(std::span<const HalfSpace> half_spaces, std::size_t period, RandomStream random);
   void observe(std::span<const HalfSpace> half_spaces, RandomStream random);
   [[nodiscard]] std::vector<HalfSpace> taken_in(std::span<const HalfSpace> half_spaces, std::size_t period);
-  [[nodiscard]] Response tabulated_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response tabulated_answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                           RandomStream random) const;
-  [[nodiscard]] Response planned_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] Response planned_answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                         RandomStream random) const;
 
   BayesianPerson person_;

@@ -45,7 +45,7 @@ class Learner {
 
   /// Sees the demonstrations of a period themselves, right before watch() tells what they convey. Most people keep only
   /// that.
-  virtual void see(const Atlas& /*atlas*/, std::span<const DemoIndex> /*demonstrations*/) {}
+  virtual void see(const Atlas& /*atlas*/, std::span<const StartIndex> /*demonstrations*/) {}
 
   /// Watches the demonstrations of a period, which convey these half-spaces.
   virtual void watch(std::span<const HalfSpace> half_spaces, std::size_t period) = 0;
@@ -56,7 +56,7 @@ class Learner {
     std::optional<Direction> weights{};  ///< Weights whose optimal paths these are, if the person had some in mind.
   };
   /// @param behaviours  of the calling thread; a cache that changes no answer.
-  [[nodiscard]] virtual Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+  [[nodiscard]] virtual Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                         std::size_t period) const = 0;
 
   /// Hears whether all answers were right, and sees the corrections, which convey these half-spaces.
@@ -107,7 +107,7 @@ using Learners = std::vector<std::unique_ptr<Learner>>;
 /// every demonstration, each reduced to its minimal set, one demonstration behind the other.
 /// @param regions  over behaviours.constraints().
 [[nodiscard]] std::vector<HalfSpace> conveyed_to(Behaviours& behaviours, Regions& regions,
-                                                 std::span<const DemoIndex> demonstrations,
+                                                 std::span<const StartIndex> demonstrations,
                                                  std::span<const Direction> expected);
 
 }  // namespace kith

@@ -28,10 +28,10 @@ struct LiveStudy {
   StudySpec spec;  ///< With `group`: its texts filled in, its files read.
   std::shared_ptr<const Atlas> atlas;
   LiveLanguage language;
-  DemoIndex sandbox;  ///< Where people try the keyboard: at least two steps from the end if possible, then
-                      ///< a start that tests nothing.
-  std::vector<DemoIndex> screening;  ///< The tests of `group.screening`.
-  std::string key;                   ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
+  StartIndex sandbox;  ///< Where people try the keyboard: at least two steps from the end if possible, then
+                       ///< a start that tests nothing.
+  std::vector<StartIndex> screening;  ///< The tests of `group.screening`.
+  std::string key;                    ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
   /// Imagined sessions by strategy and composition, for forecasts; empty unless StudySpec::forecast_sessions.
   std::map<std::pair<std::string, std::string>, std::vector<PastSession>> imagined;
 

@@ -44,16 +44,16 @@ struct JudgedPath {
 /// @param actions  numbers of actions, as in the table of moves.
 /// @param for_ever  the path goes round for ever, from when it was last in the state in which it stops; it is not legal
 /// unless it was there before. In undiscounted worlds it counts as one that stops short of the end.
-[[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions,
+[[nodiscard]] JudgedPath judged_path(const Atlas& atlas, StartIndex test, std::span<const std::size_t> actions,
                                      bool for_ever = false);
 
 /// The robot's own way from a start if every action leads to its likeliest outcome: what a right answer looks like on a
 /// page. Nothing if people could not enter it: it does not come to an end within the actions that an answer may have.
 /// With chance the likeliest outcomes may lead round in a circle, where the robot itself leaves by a less likely one;
 /// without, a robot that goes round for ever can be answered so.
-[[nodiscard]] std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test);
+[[nodiscard]] std::optional<Trajectory> answerable_path(const Atlas& atlas, StartIndex test);
 
 /// The same, or Atlas::trajectory() where there is none.
-[[nodiscard]] Trajectory expected_path(const Atlas& atlas, DemoIndex test);
+[[nodiscard]] Trajectory expected_path(const Atlas& atlas, StartIndex test);
 
 }  // namespace kith

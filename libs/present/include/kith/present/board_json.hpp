@@ -23,7 +23,7 @@ namespace kith {
 /// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame. Of
 /// an explicit model also "world_name", if the MDP has a name, and "fences", pairs of cells, if lines are drawn between
 /// some.
-[[nodiscard]] Json board_json(const Domain& domain, DemoId id);
+[[nodiscard]] Json board_json(const Domain& domain, StartId id);
 /// [{"robot", "items": [{name, cell, carried}], "stations", "action", "counts"}]: entry i is the state before action i,
 /// and what that step counts of each feature; the last has action null and no counts.
 [[nodiscard]] Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path);

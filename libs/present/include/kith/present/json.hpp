@@ -30,6 +30,6 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension);
 /// {"robot": CELL, "items": [{"name", "cell", "carried"}], "stations": [CELL, ...], "mdp": m, "start": n}; a CELL is
 /// [column, row] from the top left, from 1. Without a map {"state": n, "name", "mdp": m, "start": n}.
-[[nodiscard]] Json start_to_json(const Domain& domain, DemoId id);
+[[nodiscard]] Json start_to_json(const Domain& domain, StartId id);
 
 }  // namespace kith

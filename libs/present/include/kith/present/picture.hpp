@@ -14,17 +14,17 @@ namespace kith {
 using Picture = std::vector<std::string>;
 
 /// The map in the state in which a demonstration starts.
-[[nodiscard]] Picture start_picture(const GridMap& map, DemoId id);
+[[nodiscard]] Picture start_picture(const GridMap& map, StartId id);
 /// A path drawn on the domain's map, one picture per leg: a leg ends with an action that does not move the robot (a
 /// pick-up). Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends, unless
 /// the path goes round for ever from a cell that the leg has left.
-[[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, DemoId id,
+[[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, StartId id,
                                                  const Trajectory& path);
 /// A path in words, a line per action: "go -> on the ice".
-[[nodiscard]] std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
+[[nodiscard]] std::string path_text(const Domain& domain, StartId id, const Trajectory& path, std::size_t indent);
 /// The bare map, the start picture and the legs of the path beside each other, each row indented; without a map the
 /// path in words.
-[[nodiscard]] std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
+[[nodiscard]] std::string start_and_path(const Domain& domain, StartId id, const Trajectory& path, std::size_t indent);
 /// What the robot does wherever it stands, while items and stations are as in `configuration`.
 /// @param choice  per state of the MDP, as in DrawnPolicy::choice.
 [[nodiscard]] Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m,

@@ -59,7 +59,7 @@ struct Transcript {
 [[nodiscard]] std::string transcript_header(const Atlas& atlas, const Transcript& transcript);
 
 /// The path that a person with these weights takes, if it has the given feature counts.
-[[nodiscard]] std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts,
+[[nodiscard]] std::optional<Trajectory> path_of_answer(const Atlas& atlas, StartIndex test, const IntegerVector& counts,
                                                        const Direction& weights);
 
 }  // namespace kith

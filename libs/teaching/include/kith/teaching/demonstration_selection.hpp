@@ -44,7 +44,7 @@ struct SelectionOptions {
 /// @return the unit; without demonstrations if none has gain.
 [[nodiscard]] Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief,
                                          const KnowledgeComponent& component, std::span<const HalfSpace> taught_region,
-                                         VisitedDemos visited, const SelectionOptions& options, RandomStream random);
+                                         VisitedStarts visited, const SelectionOptions& options, RandomStream random);
 
 /// Adds demonstrations of what is still open: of the facets of the component's region that neither the unit nor what
 /// was shown before implies, whatever people believe. They are chosen by the same rule for somebody who only just
@@ -56,7 +56,7 @@ struct SelectionOptions {
 /// @param shown_before  by other lessons of the component. @param visited  before the unit.
 /// @param max_demonstrations  of the unit; 0: as many as have gain.
 void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& component,
-                   std::span<const HalfSpace> shown_before, VisitedDemos visited, std::size_t max_demonstrations,
+                   std::span<const HalfSpace> shown_before, VisitedStarts visited, std::size_t max_demonstrations,
                    RandomStream random);
 
 /// What a strategy chooses demonstrations with: select_demonstrations() with the options, the component, the region

@@ -39,27 +39,27 @@ class Exam {
   [[nodiscard]] ExamGrades grade(const ParticleBelief& belief, Behaviours& behaviours) const;
 
   /// Starts of this difficulty, ascending: all candidates, or the sample where there are no tables.
-  [[nodiscard]] std::span<const DemoIndex> starts(ExamDifficulty difficulty) const {
+  [[nodiscard]] std::span<const StartIndex> starts(ExamDifficulty difficulty) const {
     return by_difficulty_[static_cast<std::size_t>(difficulty)];
   }
   /// Questions for people: `n` starts, as many of each difficulty as possible (the first of them of low difficulty),
   /// none of `seen` as long as there are others, none twice.
-  [[nodiscard]] std::vector<DemoIndex> questions(std::size_t n, std::span<const DemoIndex> seen,
-                                                 RandomStream random) const;
+  [[nodiscard]] std::vector<StartIndex> questions(std::size_t n, std::span<const StartIndex> seen,
+                                                  RandomStream random) const;
 
   /// What cells get right; nothing where there are no tables.
   [[nodiscard]] const GradeTable* table() const { return table_ ? &*table_ : nullptr; }
 
  private:
   [[nodiscard]] ExamGrades grade_sample(const ParticleBelief& belief, Behaviours& behaviours) const;
-  [[nodiscard]] std::vector<DemoIndex> sampled_starts(const Atlas& atlas) const;
-  void sort_by_difficulty(std::vector<DemoIndex> starts, const std::vector<double>& share_right);
+  [[nodiscard]] std::vector<StartIndex> sampled_starts(const Atlas& atlas) const;
+  void sort_by_difficulty(std::vector<StartIndex> starts, const std::vector<double>& share_right);
 
   std::optional<GradeTable> table_;
-  std::array<std::vector<DemoIndex>, 3> by_difficulty_;
+  std::array<std::vector<StartIndex>, 3> by_difficulty_;
 };
 
 /// Whether a path with these feature counts is as good as the robot's from this start, and what it loses.
-[[nodiscard]] Grade grade_answer(const Atlas& atlas, DemoIndex start, const std::optional<IntegerVector>& answer);
+[[nodiscard]] Grade grade_answer(const Atlas& atlas, StartIndex start, const std::optional<IntegerVector>& answer);
 
 }  // namespace kith

@@ -132,9 +132,9 @@ class Session {
   /// What to show and ask now. @throws kith::Error (kUsage) in the phases kProposal and kFinished.
   [[nodiscard]] const Lesson& lesson() const;
   /// Whether a member is released until the next component begins.
-  [[nodiscard]] bool is_released(std::size_t member) const { return seats_.at(member) == Seat::kReleased; }
+  [[nodiscard]] bool is_released(std::size_t member) const { return attendance_.at(member) == Attendance::kReleased; }
   /// Whether a member takes part in the current period.
-  [[nodiscard]] bool takes_part(std::size_t member) const { return seats_.at(member) == Seat::kPresent; }
+  [[nodiscard]] bool takes_part(std::size_t member) const { return attendance_.at(member) == Attendance::kPresent; }
   /// Whether a member has answered the current tests.
   [[nodiscard]] bool has_answered(std::size_t member) const { return pending_.at(member).has_value(); }
   /// What the teacher believes about the team.
@@ -150,7 +150,7 @@ class Session {
   friend bool operator==(const Session& a, const Session& b);
 
  private:
-  enum class Seat : std::uint8_t { kPresent, kAway, kReturning, kReleased };
+  enum class Attendance : std::uint8_t { kPresent, kAway, kReturning, kReleased };
   struct Given {
     std::vector<Answer> answers;
     std::vector<Verdict> verdicts;
@@ -197,9 +197,9 @@ class Session {
   std::size_t component_ = 0;
   std::vector<std::size_t> right_in_a_row_;  // of every member
   std::vector<ComponentStatus> components_;
-  std::vector<Seat> seats_;
+  std::vector<Attendance> attendance_;
   std::vector<bool> is_new_;  // members who have not been taught yet, since somebody else had their place before
-  VisitedDemos visited_;
+  VisitedStarts visited_;
   std::vector<HalfSpace> taught_before_;     // R_n at the end of the last learned component
   std::vector<HalfSpace> taught_with_unit_;  // R_n with the current unit
   Lesson lesson_;

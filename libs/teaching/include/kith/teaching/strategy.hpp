@@ -13,7 +13,7 @@
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/past_periods.hpp"
-#include "kith/teaching/visited_demos.hpp"
+#include "kith/teaching/visited_starts.hpp"
 
 namespace kith {
 
@@ -36,7 +36,7 @@ struct TeachingView {
   const PastPeriods& history;  ///< All completed periods.
   const Lesson* last_of_component = nullptr;  ///< The last lesson of this component; null before its first.
   std::span<const HalfSpace> taught_region;   ///< R_n at the end of the last learned component; minimal, sorted.
-  const VisitedDemos& visited;                ///< What was shown or asked before.
+  const VisitedStarts& visited;               ///< What was shown or asked before.
   std::span<const std::uint64_t> tie_breaks;  ///< Per member, a hash of the address of the person's stream.
   std::size_t period = 1;                     ///< The coming one: 1, 2, ...
   std::size_t component = 0;                  ///< What is to be taught: index into Atlas::knowledge_components().

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kith/teaching/lesson.hpp"
-#include "kith/teaching/visited_demos.hpp"
+#include "kith/teaching/visited_starts.hpp"
 
 namespace kith {
 
@@ -27,6 +27,6 @@ struct TestChoice {
 /// @param visited  chosen ones are added.
 [[nodiscard]] TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component,
                                       const std::vector<Demonstration>& unit, const std::vector<HalfSpace>& taught,
-                                      VisitedDemos& visited, RandomStream random);
+                                      VisitedStarts& visited, RandomStream random);
 
 }  // namespace kith
