@@ -259,7 +259,7 @@ void bind_domain(py::module_& module) {
       .def(
           "world_name",
           [](const LoadedDomain& self, std::size_t world) {
-            return self.domain().describe_variant(world_of(self.domain(), world));
+            return self.domain().describe_world(world_of(self.domain(), world));
           },
           py::arg("world"))
       .def(

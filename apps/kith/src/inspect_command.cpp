@@ -93,7 +93,7 @@ class Inspection {
   // What there is instead of a map.
   [[nodiscard]] std::string model() const {
     const auto& mdp = domain_.mdp(mdp_);
-    const auto name = domain_.describe_variant(mdp_);
+    const auto name = domain_.describe_world(mdp_);
     auto text = heading_text(fmt::format("Model of world {}{}", mdp_.value(), name.empty() ? "" : ": " + name)) +
                 fmt::format("  {} and {}, {}, {}\n", counted(mdp.num_states(), "state"),
                             counted(mdp.num_terminals(), "terminal one"), counted(mdp.num_actions(), "action"),

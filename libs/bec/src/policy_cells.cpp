@@ -1,6 +1,7 @@
 #include "kith/bec/policy_cells.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -151,9 +152,9 @@ class PolicyCellBuilder {
 
   struct ChoicesHash {
     std::size_t operator()(const std::vector<PolicyCells::Choice>& choices) const noexcept {
-      std::size_t hash = 0xCBF29CE484222325ull;
-      for (const auto c : choices) hash = (hash ^ c) * 0x100000001B3ull;
-      return hash;
+      std::uint64_t hash = 0xCBF29CE484222325;  // FNV-1a
+      for (const auto c : choices) hash = (hash ^ c) * 0x100000001B3;
+      return static_cast<std::size_t>(hash);
     }
   };
 

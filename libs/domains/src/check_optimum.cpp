@@ -12,8 +12,8 @@ namespace {
 // Plans every MDP under the robot's weights and looks at the result.
 class OptimumChecker {
  public:
-  OptimumChecker(const FamilyMap& world, const Dynamics& dynamics, const Reward& reward, TomlReport& report)
-      : world_{world}, dynamics_{dynamics}, reward_{reward}, report_{report}, layout_{world} {}
+  OptimumChecker(const FamilyMap& family_map, const Dynamics& dynamics, const Reward& reward, TomlReport& report)
+      : family_map_{family_map}, dynamics_{dynamics}, reward_{reward}, report_{report}, layout_{family_map} {}
 
   void check(std::size_t number, const DomainMember& member) {
     const ExactPlan plan = plan_exactly(member.mdp, reward_.weights.integer);
@@ -26,7 +26,7 @@ class OptimumChecker {
     if (num_failures_ > 1) return;
     positive_ = plan.failure == PlanFailure::kPositiveCycle;
     cycle_text_ = cycle_text(member, plan.cycle);
-    failing_variant_ = variant_text(world_, number);
+    failing_world_ = world_text(family_map_, number);
   }
 
   void report(std::size_t num_mdps) {
@@ -36,7 +36,7 @@ class OptimumChecker {
       report_.warning("W0303", reward_.weights_place,
                       "the longest optimal path has " + std::to_string(longest_) + " steps, but max_steps is " +
                           std::to_string(dynamics_.max_steps),
-                      world_.groups.empty() ? "" : "the first: variant " + variant_text(world_, longest_variant_));
+                      family_map_.groups.empty() ? "" : "the first: world " + world_text(family_map_, longest_world_));
     }
   }
 
@@ -45,7 +45,7 @@ class OptimumChecker {
     std::string where;
     if (num_mdps > 1) {
       where = "; in " + std::to_string(num_failures_) + " of " + std::to_string(num_mdps) +
-              " variants, first in: " + failing_variant_;
+              " worlds, first in: " + failing_world_;
     }
     if (positive_) {
       report_.infeasible("E0321", reward_.weights_place,
@@ -65,10 +65,11 @@ class OptimumChecker {
     for (std::size_t i = 0; i < std::min(cycle.size(), kShown); ++i) {
       const StateIndex s = cycle[i];
       const StateIndex next = cycle[(i + 1) % cycle.size()];
-      text += cell_text(world_, layout_.robot(member.states[s.value()])) + ' ' + action_between(member, s, next) + ' ';
+      text +=
+          cell_text(family_map_, layout_.robot(member.states[s.value()])) + ' ' + action_between(member, s, next) + ' ';
     }
     if (cycle.size() > kShown) return text + "...";
-    return cycle.empty() ? "" : text + cell_text(world_, layout_.robot(member.states[cycle[0].value()]));
+    return cycle.empty() ? "" : text + cell_text(family_map_, layout_.robot(member.states[cycle[0].value()]));
   }
 
   // The best action that leads from `s` to `next`.
@@ -97,7 +98,7 @@ class OptimumChecker {
       for (; !path.empty(); path.pop_back()) length[path.back()] = ++steps;
       if (length[start] > longest_) {
         longest_ = length[start];
-        longest_variant_ = number;
+        longest_world_ = number;
       }
     }
   }
@@ -107,7 +108,7 @@ class OptimumChecker {
     return member.mdp.outcomes(choice).front().next.value();
   }
 
-  const FamilyMap& world_;
+  const FamilyMap& family_map_;
   const Dynamics& dynamics_;
   const Reward& reward_;
   TomlReport& report_;
@@ -115,10 +116,10 @@ class OptimumChecker {
   std::size_t num_failures_ = 0;
   bool positive_ = false;
   std::string cycle_text_;
-  std::string failing_variant_;
+  std::string failing_world_;
   std::size_t num_ties_ = 0;
   std::size_t longest_ = 0;
-  std::size_t longest_variant_ = 0;
+  std::size_t longest_world_ = 0;
 };
 
 }  // namespace
@@ -146,10 +147,10 @@ void warn_of_ties(std::size_t num_ties, const TomlPlace& weights_place, TomlRepo
                  "its choices between equally good paths contradict each other");
 }
 
-void check_optimum(const FamilyMap& world, const Dynamics& dynamics, const Reward& reward,
+void check_optimum(const FamilyMap& family_map, const Dynamics& dynamics, const Reward& reward,
                    const std::vector<DomainMember>& members, TomlReport& report) {
   if (dynamics.discount < 1.0) return;  // every discounted optimum is finite
-  OptimumChecker checker{world, dynamics, reward, report};
+  OptimumChecker checker{family_map, dynamics, reward, report};
   for (std::size_t mdp = 0; mdp < members.size(); ++mdp) checker.check(mdp, members[mdp]);
   checker.report(members.size());
 }

@@ -13,9 +13,9 @@ std::optional<std::size_t> position(const std::vector<std::string>& names, const
   return it == names.end() ? std::nullopt : std::optional{static_cast<std::size_t>(it - names.begin())};
 }
 
-std::vector<std::string> item_names(const FamilyMap& world) {
+std::vector<std::string> item_names(const FamilyMap& family_map) {
   std::vector<std::string> names;
-  for (const Item& item : world.items) names.push_back(item.name);
+  for (const Item& item : family_map.items) names.push_back(item.name);
   return names;
 }
 
@@ -88,7 +88,7 @@ class Parser {
   // The atom, or nothing after reporting why there is none.
   std::optional<Atom> resolve(const std::string& kind, std::size_t begin, bool named, const std::string& name,
                               std::size_t name_at) {
-    const FamilyMap& world = vocabulary_.world;
+    const FamilyMap& family_map = vocabulary_.family_map;
     if (!named && kind == "action") return Atom{Atom::Kind::kAnyAction, 0};
     if (!named && kind == "exit") return action("exit", begin);
     if (!named && kind == "goal") return Atom{Atom::Kind::kAnyGoal, 0};
@@ -99,9 +99,10 @@ class Parser {
     if (kind == "enter" && named) {
       return place(name, name_at, Atom::Kind::kEnterTerrain, Atom::Kind::kEnterStation);
     }
-    if (kind == "carrying" && named) return look_up(name, name_at, item_names(world), Atom::Kind::kCarrying, "item");
+    if (kind == "carrying" && named)
+      return look_up(name, name_at, item_names(family_map), Atom::Kind::kCarrying, "item");
     if (kind == "deliver" && named) return deliver(name, name_at);
-    if (kind == "goal" && named) return look_up(name, name_at, world.goal_names, Atom::Kind::kGoal, "goal");
+    if (kind == "goal" && named) return look_up(name, name_at, family_map.goal_names, Atom::Kind::kGoal, "goal");
     static const std::vector<std::string> kKinds{"action", "leave", "enter", "carrying", "deliver", "goal", "exit"};
     if (position(kKinds, kind)) {
       fail(begin, kind.size(), named ? "'exit' takes no name" : "'" + kind + "' needs a name, as in " + kind + ":X");
@@ -115,7 +116,7 @@ class Parser {
     std::vector<std::string> names;
     for (const Action a : vocabulary_.actions) names.push_back(all_action_names()[static_cast<std::size_t>(a)]);
     const bool needs_item = name == "pickup" || name == "dropoff";
-    if (needs_item && !position(names, name) && !vocabulary_.world.absent.empty()) return never();
+    if (needs_item && !position(names, name) && !vocabulary_.family_map.absent.empty()) return never();
     if (const auto i = position(names, name)) {
       return Atom{Atom::Kind::kAction, static_cast<std::size_t>(vocabulary_.actions[*i])};
     }
@@ -124,20 +125,20 @@ class Parser {
   }
 
   std::optional<Atom> place(const std::string& name, std::size_t at, Atom::Kind terrain, Atom::Kind station) {
-    const FamilyMap& world = vocabulary_.world;
+    const FamilyMap& family_map = vocabulary_.family_map;
     if (is_absent(name)) return never();
-    if (const auto i = position(world.terrain_names, name)) return Atom{terrain, *i};
-    if (const auto i = position(world.station_names, name)) return Atom{station, *i};
-    std::vector<std::string> known = world.terrain_names;
-    known.insert(known.end(), world.station_names.begin(), world.station_names.end());
+    if (const auto i = position(family_map.terrain_names, name)) return Atom{terrain, *i};
+    if (const auto i = position(family_map.station_names, name)) return Atom{station, *i};
+    std::vector<std::string> known = family_map.terrain_names;
+    known.insert(known.end(), family_map.station_names.begin(), family_map.station_names.end());
     fail_unknown(at, name, "terrain or station", known);
     return std::nullopt;
   }
 
   std::optional<Atom> deliver(const std::string& name, std::size_t at) {
-    const auto found = look_up(name, at, item_names(vocabulary_.world), Atom::Kind::kDeliver, "item");
-    if (found && found->kind == Atom::Kind::kDeliver && vocabulary_.world.is_sound &&
-        vocabulary_.world.items[found->index].destinations.empty() && !is_absent(name)) {
+    const auto found = look_up(name, at, item_names(vocabulary_.family_map), Atom::Kind::kDeliver, "item");
+    if (found && found->kind == Atom::Kind::kDeliver && vocabulary_.family_map.is_sound &&
+        vocabulary_.family_map.items[found->index].destinations.empty() && !is_absent(name)) {
       fail(at, name.size(), "item '" + name + "' has no destination on the map");
       return std::nullopt;
     }
@@ -154,7 +155,7 @@ class Parser {
 
   // Declared as not being on this map: the condition does not hold, instead of being an error.
   [[nodiscard]] bool is_absent(const std::string& name) const {
-    return position(vocabulary_.world.absent, name).has_value();
+    return position(vocabulary_.family_map.absent, name).has_value();
   }
   std::optional<Atom> never() {
     result_.names_absent_things = true;
@@ -199,7 +200,7 @@ class Parser {
   void fail_unknown(std::size_t offset, const std::string& name, const std::string& what,
                     const std::vector<std::string>& known) {
     // A broken legend may lack the name; actions and kinds of conditions do not depend on it.
-    const bool certain = vocabulary_.world.legend_is_sound || what == "action" || what == "condition";
+    const bool certain = vocabulary_.family_map.legend_is_sound || what == "action" || what == "condition";
     if (!failed_ && certain) {
       report_.error("E0216", report_.document().inside(value_, offset, name.size()),
                     "condition names an unknown " + what + " '" + name + "'", suggestion(name, known));
@@ -227,22 +228,22 @@ const std::vector<std::string>& all_action_names() {
 
 namespace {
 
-std::optional<FeatureThing> thing_of(const Atom& atom, const FamilyMap& world) {
+std::optional<FeatureThing> thing_of(const Atom& atom, const FamilyMap& family_map) {
   switch (atom.kind) {
     case Atom::Kind::kLeaveTerrain:
-      return FeatureThing{"leave", "terrain", world.terrain_names[atom.index]};
+      return FeatureThing{"leave", "terrain", family_map.terrain_names[atom.index]};
     case Atom::Kind::kEnterTerrain:
-      return FeatureThing{"enter", "terrain", world.terrain_names[atom.index]};
+      return FeatureThing{"enter", "terrain", family_map.terrain_names[atom.index]};
     case Atom::Kind::kLeaveStation:
-      return FeatureThing{"leave", "station", world.station_names[atom.index]};
+      return FeatureThing{"leave", "station", family_map.station_names[atom.index]};
     case Atom::Kind::kEnterStation:
-      return FeatureThing{"enter", "station", world.station_names[atom.index]};
+      return FeatureThing{"enter", "station", family_map.station_names[atom.index]};
     case Atom::Kind::kCarrying:
-      return FeatureThing{"carrying", "item", world.items[atom.index].name};
+      return FeatureThing{"carrying", "item", family_map.items[atom.index].name};
     case Atom::Kind::kDeliver:
-      return FeatureThing{"deliver", "item", world.items[atom.index].name};
+      return FeatureThing{"deliver", "item", family_map.items[atom.index].name};
     case Atom::Kind::kGoal:
-      return FeatureThing{"goal", "goal", world.goal_names[atom.index]};
+      return FeatureThing{"goal", "goal", family_map.goal_names[atom.index]};
     case Atom::Kind::kAnyGoal:
       return FeatureThing{"goal", "goal", "goal"};
     case Atom::Kind::kAnyAction:
@@ -256,11 +257,11 @@ std::optional<FeatureThing> thing_of(const Atom& atom, const FamilyMap& world) {
 }  // namespace
 
 std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms,
-                                    const FamilyMap& world) {
+                                    const FamilyMap& family_map) {
   std::vector<std::vector<FeatureThing>> stack;
   for (const Condition::Step& step : condition.steps) {
     if (step.op == Condition::Op::kAtom) {
-      const auto thing = thing_of(atoms[step.atom], world);
+      const auto thing = thing_of(atoms[step.atom], family_map);
       stack.push_back(thing ? std::vector{*thing} : std::vector<FeatureThing>{});
     } else if (step.op == Condition::Op::kNot) {
       stack.back().clear();

@@ -55,11 +55,11 @@ class Condition {
 
 // What has to be there for the condition to hold, in its order.
 [[nodiscard]] std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms,
-                                                  const FamilyMap& world);
+                                                  const FamilyMap& family_map);
 
 // What conditions may name.
 struct Vocabulary {
-  const FamilyMap& world;
+  const FamilyMap& family_map;
   const std::vector<Action>& actions;
 };
 

@@ -7,15 +7,15 @@
 namespace kith {
 
 void GridFamily::describe_states() {
-  const std::size_t num_groups = world.groups.size();
+  const std::size_t num_groups = family_map.groups.size();
   for (std::size_t group = 0; group < num_groups; ++group) {
     const auto is_station = [&](const detail::MapThing& thing) {
-      return !world.symbols[thing.symbol].content.station.empty();
+      return !family_map.symbols[thing.symbol].content.station.empty();
     };
-    const bool only_stations = std::ranges::all_of(world.groups[group].things, is_station);
-    if (!only_stations) non_station_groups |= world.bit_of(group);
+    const bool only_stations = std::ranges::all_of(family_map.groups[group].things, is_station);
+    if (!only_stations) non_station_groups |= family_map.bit_of(group);
   }
-  digits_per_state = 2 + 3 * world.items.size() + 2 * world.stations.size();
+  digits_per_state = 2 + 3 * family_map.items.size() + 2 * family_map.stations.size();
   first_state.push_back(0);
   for (const DomainMember& member : members) {
     first_state.push_back(first_state.back() + member.mdp.num_states());
@@ -27,7 +27,7 @@ void GridFamily::describe_states() {
 void GridFamily::describe_state(const DomainMember& member, detail::PackedState s) {
   const std::size_t row_begin = digits.size();
   const auto add_cell = [&](std::size_t index) {
-    const Cell cell = world.cell_at(index);
+    const Cell cell = family_map.cell_at(index);
     digits.push_back(cell.x);
     digits.push_back(cell.y);
   };
@@ -38,9 +38,9 @@ void GridFamily::describe_state(const DomainMember& member, detail::PackedState 
     digits.push_back(layout.carried(s) == i + 1 ? 1 : 0);
   }
   std::uint16_t stations = 0;
-  for (std::size_t i = 0; i < world.stations.size(); ++i) {
+  for (std::size_t i = 0; i < family_map.stations.size(); ++i) {
     if (!layout.has_station(s, i)) continue;
-    add_cell(world.stations[i].cell);
+    add_cell(family_map.stations[i].cell);
     ++stations;
   }
   num_stations.push_back(stations);
@@ -59,16 +59,18 @@ std::string Domain::state_name(MdpIndex m, StateIndex s) const {
   const GridMap map{data_->grid()};
   const GridState now = map.state(m, s);
   const std::vector<std::size_t> items = map.items_in(m);
-  const auto at = [&](Cell cell) { return cell_text(data_->grid().world, *data_->grid().world.index_of(cell)); };
+  const auto at = [&](Cell cell) {
+    return cell_text(data_->grid().family_map, *data_->grid().family_map.index_of(cell));
+  };
   std::string text = now.exited ? "gone from " + at(now.robot) : "robot at " + at(now.robot);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string& item = data_->grid().item_names[items[i]];
     text += now.carried[i] ? ", carrying " + item : ", " + item + " at " + at(now.items[i]);
   }
-  for (std::size_t i = 0; i < data_->grid().world.stations.size(); ++i) {
-    const detail::Station& station = data_->grid().world.stations[i];
-    if (std::ranges::find(now.stations, data_->grid().world.cell_at(station.cell)) == now.stations.end()) continue;
-    text += ", " + station.name + " at " + cell_text(data_->grid().world, station.cell);
+  for (std::size_t i = 0; i < data_->grid().family_map.stations.size(); ++i) {
+    const detail::Station& station = data_->grid().family_map.stations[i];
+    if (std::ranges::find(now.stations, data_->grid().family_map.cell_at(station.cell)) == now.stations.end()) continue;
+    text += ", " + station.name + " at " + cell_text(data_->grid().family_map, station.cell);
   }
   return text;
 }

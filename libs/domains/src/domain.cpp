@@ -128,25 +128,25 @@ const std::vector<StateIndex>& Domain::starts(MdpIndex m) const {
       *data_, m, "Domain::starts", [](const auto& member) -> const auto& { return member.starts; });
 }
 
-std::vector<bool> Domain::variant(MdpIndex m) const {
-  check_mdp(*data_, m, "Domain::variant");
+std::vector<bool> Domain::present_things(MdpIndex m) const {
+  check_mdp(*data_, m, "Domain::present_things");
   std::vector<bool> bits;
   if (!data_->has_map()) return bits;
-  for (std::size_t g = 0; g < data_->grid().world.groups.size(); ++g)
-    bits.push_back(data_->grid().world.is_on(g, m.value()));
+  for (std::size_t g = 0; g < data_->grid().family_map.groups.size(); ++g)
+    bits.push_back(data_->grid().family_map.is_on(g, m.value()));
   return bits;
 }
 
-std::string Domain::describe_variant(MdpIndex m) const {
-  check_mdp(*data_, m, "Domain::describe_variant");
+std::string Domain::describe_world(MdpIndex m) const {
+  check_mdp(*data_, m, "Domain::describe_world");
   if (!data_->has_map()) return data_->model().members[m.value()].name;
-  return variant_text(data_->grid().world, m.value());
+  return world_text(data_->grid().family_map, m.value());
 }
 
 std::string Domain::world_name(MdpIndex m) const {
   check_mdp(*data_, m, "Domain::world_name");
   if (!data_->has_map()) return data_->model().members[m.value()].name;
-  const auto& names = data_->grid().world.variant_names;
+  const auto& names = data_->grid().family_map.world_names;
   return names.empty() ? std::string{} : names[m.value()];
 }
 
@@ -168,12 +168,12 @@ std::optional<MdpIndex> Domain::find_world(std::string_view number_or_name) cons
 
 std::vector<OptionalGroup> Domain::optional_groups() const {
   if (!data_->has_map()) return {};
-  const detail::FamilyMap& world = data_->grid().world;
+  const detail::FamilyMap& family_map = data_->grid().family_map;
   std::vector<OptionalGroup> groups;
-  for (const detail::CellGroup& group : world.groups) {
+  for (const detail::CellGroup& group : family_map.groups) {
     OptionalGroup& added = groups.emplace_back();
-    for (const detail::MapThing& thing : group.things) added.cells.push_back(world.cell_at(thing.cell));
-    if (!group.things.empty()) added.name = symbol_name(world.symbols[group.things.front().symbol]);
+    for (const detail::MapThing& thing : group.things) added.cells.push_back(family_map.cell_at(thing.cell));
+    if (!group.things.empty()) added.name = symbol_name(family_map.symbols[group.things.front().symbol]);
   }
   return groups;
 }
@@ -194,8 +194,9 @@ int dissimilarity_of(const GridFamily& grid, StartId a, StartId b) {
   const std::int32_t* digits_b = grid.digits.data() + row_b * grid.digits_per_state;
   int moved = 0;
   for (std::size_t i = 0; i < common; ++i) moved += std::abs(digits_a[i] - digits_b[i]);
-  const detail::FamilyMap& world = grid.world;
-  const std::uint64_t toggled = (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & grid.non_station_groups;
+  const detail::FamilyMap& family_map = grid.family_map;
+  const std::uint64_t toggled =
+      (family_map.mask(a.mdp.value()) ^ family_map.mask(b.mdp.value())) & grid.non_station_groups;
   const int stations = grid.num_stations[row_a] - grid.num_stations[row_b];
   return 2 * moved + std::popcount(toggled) + std::abs(stations);
 }

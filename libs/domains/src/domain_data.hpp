@@ -24,7 +24,7 @@ struct DomainMember {
 
 // Gridworlds on one map.
 struct GridFamily {
-  detail::FamilyMap world;
+  detail::FamilyMap family_map;
   detail::StateLayout layout;
   std::vector<std::string> item_names;
   std::vector<DomainMember> members;  // per MDP
@@ -35,7 +35,7 @@ struct GridFamily {
   std::vector<std::int32_t> digits;  // shape [rows, digits_per_state], padded with zeros
   std::vector<std::uint16_t> num_digits;
   std::vector<std::uint16_t> num_stations;  // still there
-  std::uint64_t non_station_groups = 0;     // as a mask of variants
+  std::uint64_t non_station_groups = 0;     // as a mask of worlds
 
   // Fills in the looks from the members.
   void describe_states();

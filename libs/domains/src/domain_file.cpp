@@ -41,10 +41,10 @@ void check_id(TomlReader& file, const std::string& id) {
 }
 
 // Something must end an episode, else there is nothing to plan for.
-void check_has_goal(const detail::FamilyMap& world, const detail::Dynamics& dynamics, TomlReport& report) {
+void check_has_goal(const detail::FamilyMap& family_map, const detail::Dynamics& dynamics, TomlReport& report) {
   const auto& actions = dynamics.actions;
-  if (world.some_goal || std::find(actions.begin(), actions.end(), detail::Action::kExit) != actions.end()) return;
-  report.error("E0210", world.map_place, "the map has no goal",
+  if (family_map.some_goal || std::find(actions.begin(), actions.end(), detail::Action::kExit) != actions.end()) return;
+  report.error("E0210", family_map.map_place, "the map has no goal",
                "declare a symbol with goal = true or destination = \"ITEM\", or the action \"exit\"");
 }
 
@@ -61,7 +61,7 @@ void check_features(const detail::Dynamics& dynamics, const std::vector<Member>&
     if (std::ranges::any_of(members, [k](const Member& member) { return member.mdp.has_feature(k); })) continue;
     report.warning("W0301", dynamics.features[k].place,
                    "feature '" + dynamics.features[k].name + "' occurs in no " +
-                       (std::is_same_v<Member, ExplicitMember> ? "MDP" : "variant"));
+                       (std::is_same_v<Member, ExplicitMember> ? "MDP" : "world"));
   }
 }
 
@@ -76,11 +76,11 @@ Domain::Data data_from(const detail::Dynamics& dynamics, detail::Reward reward) 
   return data;
 }
 
-GridFamily grid_from(detail::FamilyMap world, std::vector<DomainMember> members) {
+GridFamily grid_from(detail::FamilyMap family_map, std::vector<DomainMember> members) {
   GridFamily grid;
-  for (const detail::Item& item : world.items) grid.item_names.push_back(item.name);
-  grid.layout = detail::StateLayout{world};
-  grid.world = std::move(world);
+  for (const detail::Item& item : family_map.items) grid.item_names.push_back(item.name);
+  grid.layout = detail::StateLayout{family_map};
+  grid.family_map = std::move(family_map);
   grid.members = std::move(members);
   grid.describe_states();
   return grid;
@@ -89,16 +89,16 @@ GridFamily grid_from(detail::FamilyMap world, std::vector<DomainMember> members)
 std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limits, detail::NamedFiles& files,
                                       detail::ModelReport& model_report) {
   TomlReport& report = file.report();
-  detail::FamilyMap world = detail::read_world(file, files, model_report);
-  const detail::Dynamics dynamics = detail::read_dynamics(file, world);
+  detail::FamilyMap family_map = detail::read_world(file, files, model_report);
+  const detail::Dynamics dynamics = detail::read_dynamics(file, family_map);
   detail::Reward reward = detail::read_reward(file, dynamics);
   file.finish();
-  if (world.is_sound) check_has_goal(world, dynamics, report);
+  if (family_map.is_sound) check_has_goal(family_map, dynamics, report);
   if (report.has_errors() || model_report.has_errors()) return std::nullopt;
 
-  std::vector<DomainMember> members = detail::build_family(world, dynamics, limits, report);
+  std::vector<DomainMember> members = detail::build_family(family_map, dynamics, limits, report);
   if (report.has_errors()) return std::nullopt;
-  detail::check_optimum(world, dynamics, reward, members, report);
+  detail::check_optimum(family_map, dynamics, reward, members, report);
   if (report.has_errors()) return std::nullopt;
   check_features(dynamics, members, report);
   Domain::Data data = data_from(dynamics, std::move(reward));
@@ -106,9 +106,9 @@ std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limi
     data.action_names.push_back(detail::all_action_names()[static_cast<std::size_t>(action)]);
   }
   for (const detail::Feature& feature : dynamics.features) {
-    data.feature_things.push_back(detail::things_of(feature.when, dynamics.atoms, world));
+    data.feature_things.push_back(detail::things_of(feature.when, dynamics.atoms, family_map));
   }
-  data.family = grid_from(std::move(world), std::move(members));
+  data.family = grid_from(std::move(family_map), std::move(members));
   return data;
 }
 

@@ -12,11 +12,12 @@ constexpr std::array kMoves{Action::kUp, Action::kDown, Action::kLeft, Action::k
 // Reads the parts of a file that say what the robot can do and what counts.
 class DynamicsReader {
  public:
-  DynamicsReader(TomlReader& file, const FamilyMap& world) : file_{file}, report_{file.report()}, world_{world} {}
+  DynamicsReader(TomlReader& file, const FamilyMap& family_map)
+      : file_{file}, report_{file.report()}, family_map_{family_map} {}
 
   Dynamics read() {
     read_mdp();
-    ConditionReader conditions{{world_, dynamics_.actions}, report_};
+    ConditionReader conditions{{family_map_, dynamics_.actions}, report_};
     read_features(conditions);
     read_rules(conditions);
     dynamics_.atoms = conditions.atoms();
@@ -40,7 +41,7 @@ class DynamicsReader {
 
   void default_actions() {
     dynamics_.actions.assign(kMoves.begin(), kMoves.end());
-    if (world_.items.empty()) return;
+    if (family_map_.items.empty()) return;
     dynamics_.actions.push_back(Action::kPickup);
     dynamics_.actions.push_back(Action::kDropoff);
   }
@@ -52,8 +53,8 @@ class DynamicsReader {
       const auto action = static_cast<Action>(*index);
       if (std::find(dynamics_.actions.begin(), dynamics_.actions.end(), action) != dynamics_.actions.end()) {
         report_.error("E0222", element.place(), "action '" + *element.string() + "' is listed twice");
-      } else if ((action == Action::kPickup || action == Action::kDropoff) && world_.items.empty() &&
-                 world_.absent.empty() && world_.legend_is_sound) {
+      } else if ((action == Action::kPickup || action == Action::kDropoff) && family_map_.items.empty() &&
+                 family_map_.absent.empty() && family_map_.legend_is_sound) {
         report_.error("E0222", element.place(), "there is no item for '" + *element.string() + "'");
       } else {
         dynamics_.actions.push_back(action);
@@ -112,10 +113,10 @@ class DynamicsReader {
 
   std::optional<std::size_t> raster_named(const TomlReader& feature, const std::string& name) {
     std::vector<std::string> names;
-    for (const Raster& raster : world_.rasters) names.push_back(raster.name);
+    for (const Raster& raster : family_map_.rasters) names.push_back(raster.name);
     const auto at = std::find(names.begin(), names.end(), name);
     if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
-    if (!world_.is_sound) return std::nullopt;  // the raster may be one that could not be read
+    if (!family_map_.is_sound) return std::nullopt;  // the raster may be one that could not be read
     report_.error("E0216", feature.content().find("times")->place(), "there is no raster '" + name + "'",
                   names.empty() ? "declare it: [[map.raster]] with name = \"" + name + "\"" : suggestion(name, names));
     return std::nullopt;
@@ -141,7 +142,7 @@ class DynamicsReader {
 
   TomlReader& file_;
   TomlReport& report_;
-  const FamilyMap& world_;
+  const FamilyMap& family_map_;
   Dynamics dynamics_;
 };
 
@@ -175,7 +176,9 @@ std::vector<std::string> Dynamics::feature_names() const {
   return names;
 }
 
-Dynamics read_dynamics(TomlReader& file, const FamilyMap& world) { return DynamicsReader{file, world}.read(); }
+Dynamics read_dynamics(TomlReader& file, const FamilyMap& family_map) {
+  return DynamicsReader{file, family_map}.read();
+}
 
 FeatureTable::FeatureTable(const Dynamics& dynamics) : dynamics_{dynamics} {
   const auto counts_raster = [](const Feature& feature) { return feature.times.has_value(); };

@@ -34,7 +34,7 @@ struct Dynamics {
 };
 
 // Reads [mdp], [[feature]] and [[rule]].
-[[nodiscard]] Dynamics read_dynamics(TomlReader& file, const FamilyMap& world);
+[[nodiscard]] Dynamics read_dynamics(TomlReader& file, const FamilyMap& family_map);
 
 // The largest discount below 1. With it expected counts, up to 1 / (1 - discount) times the largest feature, stay
 // within the 2^53 units in which they are kept (expectation_scale()), and choices that differ by a thousandth of a

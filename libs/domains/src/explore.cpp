@@ -4,24 +4,24 @@
 #include <array>
 
 namespace kith::detail {
-Explorer::Explorer(const FamilyMap& world, const Dynamics& dynamics, FeatureTable& features)
-    : world_{world}, dynamics_{dynamics}, features_{features}, layout_{world} {
+Explorer::Explorer(const FamilyMap& family_map, const Dynamics& dynamics, FeatureTable& features)
+    : family_map_{family_map}, dynamics_{dynamics}, features_{features}, layout_{family_map} {
   for (std::size_t a = 0; a < all_action_names().size(); ++a) {
     action_atoms_.push_back(mask_of({Atom::Kind::kAnyAction, 0}) | mask_of({Atom::Kind::kAction, a}));
   }
-  for (const Symbol& symbol : world.symbols) symbol_effects_.push_back(effect_of(symbol.content));
+  for (const Symbol& symbol : family_map.symbols) symbol_effects_.push_back(effect_of(symbol.content));
   carrying_atoms_.push_back(0);
-  for (std::size_t i = 0; i < world.items.size(); ++i) {
+  for (std::size_t i = 0; i < family_map.items.size(); ++i) {
     carrying_atoms_.push_back(mask_of({Atom::Kind::kCarrying, i}));
     deliver_atoms_.push_back(mask_of({Atom::Kind::kDeliver, i}));
   }
-  for (const Station& station : world.stations) {
-    station_leave_atoms_.push_back(atoms_of(Atom::Kind::kLeaveStation, world.station_names, station.name));
-    station_enter_atoms_.push_back(atoms_of(Atom::Kind::kEnterStation, world.station_names, station.name));
+  for (const Station& station : family_map.stations) {
+    station_leave_atoms_.push_back(atoms_of(Atom::Kind::kLeaveStation, family_map.station_names, station.name));
+    station_enter_atoms_.push_back(atoms_of(Atom::Kind::kEnterStation, family_map.station_names, station.name));
   }
-  for (const Raster& raster : world.rasters) {
-    raster_atoms_.push_back({atoms_of(Atom::Kind::kLeaveTerrain, world.terrain_names, raster.name),
-                             atoms_of(Atom::Kind::kEnterTerrain, world.terrain_names, raster.name)});
+  for (const Raster& raster : family_map.rasters) {
+    raster_atoms_.push_back({atoms_of(Atom::Kind::kLeaveTerrain, family_map.terrain_names, raster.name),
+                             atoms_of(Atom::Kind::kEnterTerrain, family_map.terrain_names, raster.name)});
   }
   for (const Feature& feature : dynamics.features) {
     if (feature.times) counted_rasters_.push_back(*feature.times);
@@ -40,20 +40,20 @@ AtomMask Explorer::atoms_of(Atom::Kind kind, const std::vector<std::string>& nam
 }
 
 void Explorer::set_up(std::size_t mdp) {
-  cells_.assign(world_.num_cells(), {});
-  station_present_.assign(world_.stations.size(), false);
-  for (std::size_t cell = 0; cell < world_.num_cells(); ++cell) {
-    if (world_.is_there(world_.group_of[cell], mdp)) put(cell, world_.symbol_of[cell]);
+  cells_.assign(family_map_.num_cells(), {});
+  station_present_.assign(family_map_.stations.size(), false);
+  for (std::size_t cell = 0; cell < family_map_.num_cells(); ++cell) {
+    if (family_map_.is_there(family_map_.group_of[cell], mdp)) put(cell, family_map_.symbol_of[cell]);
   }
-  for (const MapThing& thing : world_.painted) {
-    if (world_.is_there(thing.group, mdp)) put(thing.cell, thing.symbol);
+  for (const MapThing& thing : family_map_.painted) {
+    if (family_map_.is_there(thing.group, mdp)) put(thing.cell, thing.symbol);
   }
   item_present_.clear();
   item_counts_.clear();
   has_deliveries_ = false;
-  for (const Item& item : world_.items) {
-    item_present_.push_back(world_.find(item.homes, mdp).has_value());
-    item_counts_.push_back(item_present_.back() && world_.find(item.destinations, mdp));
+  for (const Item& item : family_map_.items) {
+    item_present_.push_back(family_map_.find(item.homes, mdp).has_value());
+    item_counts_.push_back(item_present_.back() && family_map_.find(item.destinations, mdp));
     has_deliveries_ = has_deliveries_ || item_counts_.back();
   }
   set_up_rasters(mdp);
@@ -69,16 +69,16 @@ void Explorer::put(std::size_t cell, std::size_t symbol) {
   sum.goal = sum.goal || effect.goal;
   if (effect.destination >= 0) sum.destination = effect.destination;
   if (!effect.has_station) return;
-  const auto at = std::lower_bound(world_.stations.begin(), world_.stations.end(), cell,
+  const auto at = std::lower_bound(family_map_.stations.begin(), family_map_.stations.end(), cell,
                                    [](const Station& station, std::size_t c) { return station.cell < c; });
-  sum.station = static_cast<std::int32_t>(at - world_.stations.begin());
+  sum.station = static_cast<std::int32_t>(at - family_map_.stations.begin());
   station_present_[static_cast<std::size_t>(sum.station)] = true;
 }
 
 void Explorer::set_up_rasters(std::size_t mdp) {
-  for (std::size_t r = 0; r < world_.rasters.size(); ++r) {
+  for (std::size_t r = 0; r < family_map_.rasters.size(); ++r) {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-      if (world_.raster_value(r, cell, mdp) == 0) continue;
+      if (family_map_.raster_value(r, cell, mdp) == 0) continue;
       cells_[cell].leave |= raster_atoms_[r].first;
       cells_[cell].enter |= raster_atoms_[r].second;
     }
@@ -87,7 +87,7 @@ void Explorer::set_up_rasters(std::size_t mdp) {
   std::vector<std::uint16_t> values(counted_rasters_.size());
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = world_.raster_value(counted_rasters_[i], cell, mdp);
+      values[i] = family_map_.raster_value(counted_rasters_[i], cell, mdp);
     }
     cells_[cell].counts = features_.counts_of(values);
   }
@@ -98,25 +98,25 @@ Explorer::CellEffect Explorer::effect_of(const SymbolContent& content) const {
   effect.wall = content.wall;
   effect.goal = content.goal;
   effect.has_station = !content.station.empty();
-  for (std::size_t i = 0; i < world_.items.size(); ++i) {
-    if (world_.items[i].name == content.destination) effect.destination = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < family_map_.items.size(); ++i) {
+    if (family_map_.items[i].name == content.destination) effect.destination = static_cast<std::int32_t>(i);
   }
-  effect.leave = atoms_of(Atom::Kind::kLeaveTerrain, world_.terrain_names, content.terrain);
-  effect.enter = atoms_of(Atom::Kind::kEnterTerrain, world_.terrain_names, content.terrain) |
-                 atoms_of(Atom::Kind::kGoal, world_.goal_names, content.goal_name);
+  effect.leave = atoms_of(Atom::Kind::kLeaveTerrain, family_map_.terrain_names, content.terrain);
+  effect.enter = atoms_of(Atom::Kind::kEnterTerrain, family_map_.terrain_names, content.terrain) |
+                 atoms_of(Atom::Kind::kGoal, family_map_.goal_names, content.goal_name);
   if (content.goal) effect.enter |= mask_of({Atom::Kind::kAnyGoal, 0});
   return effect;
 }
 
 PackedState Explorer::start_state(std::size_t mdp) const {
-  PackedState s = layout_.with_robot(0, world_.start_in(mdp));
-  for (std::size_t i = 0; i < world_.items.size(); ++i) {
+  PackedState s = layout_.with_robot(0, family_map_.start_in(mdp));
+  for (std::size_t i = 0; i < family_map_.items.size(); ++i) {
     if (!item_present_[i]) continue;
-    s = layout_.with_item(s, i, *world_.find(world_.items[i].homes, mdp));
-    if (world_.items[i].carried) s = layout_.with_carried(s, i + 1);
+    s = layout_.with_item(s, i, *family_map_.find(family_map_.items[i].homes, mdp));
+    if (family_map_.items[i].carried) s = layout_.with_carried(s, i + 1);
   }
   std::uint64_t stations = 0;
-  for (std::size_t i = 0; i < world_.stations.size(); ++i) {
+  for (std::size_t i = 0; i < family_map_.stations.size(); ++i) {
     if (station_present_[i]) stations |= std::uint64_t{1} << i;
   }
   return layout_.with_stations(s, stations);
@@ -129,7 +129,7 @@ bool Explorer::is_delivered(PackedState s, std::size_t item) const {
 bool Explorer::is_terminal(PackedState s) const {
   if (layout_.exited(s) || cells_[layout_.robot(s)].goal) return true;
   if (!has_deliveries_) return false;
-  for (std::size_t i = 0; i < world_.items.size(); ++i) {
+  for (std::size_t i = 0; i < family_map_.items.size(); ++i) {
     if (item_counts_[i] && !is_delivered(s, i)) return false;
   }
   return true;
@@ -137,7 +137,7 @@ bool Explorer::is_terminal(PackedState s) const {
 
 Explorer::Step Explorer::move(PackedState s, Action action) const {
   const std::size_t from = layout_.robot(s);
-  const auto width = static_cast<std::size_t>(world_.width);
+  const auto width = static_cast<std::size_t>(family_map_.width);
   std::size_t to = from;
   if (action == Action::kUp && from >= width) to = from - width;
   if (action == Action::kDown && from + width < cells_.size()) to = from + width;
@@ -161,7 +161,7 @@ Explorer::Step Explorer::move(PackedState s, Action action) const {
 // Where several items lie on one cell, the first one declared is picked up.
 Explorer::Step Explorer::pick_up(PackedState s) const {
   if (layout_.carried(s) != 0) return {};
-  for (std::size_t i = 0; i < world_.items.size(); ++i) {
+  for (std::size_t i = 0; i < family_map_.items.size(); ++i) {
     if (item_present_[i] && layout_.item(s, i) == layout_.robot(s)) return {layout_.with_carried(s, i + 1), 0, true};
   }
   return {};

@@ -29,7 +29,7 @@ struct Exploration {
 // Finds the states of the MDPs of a family, one after the other.
 class Explorer {
  public:
-  Explorer(const FamilyMap& world, const Dynamics& dynamics, FeatureTable& features);
+  Explorer(const FamilyMap& family_map, const Dynamics& dynamics, FeatureTable& features);
 
   [[nodiscard]] const StateLayout& layout() const { return layout_; }
 
@@ -69,7 +69,7 @@ class Explorer {
   [[nodiscard]] Step drop_off(PackedState s) const;
   std::uint32_t number_of(PackedState s, Exploration& found);
 
-  const FamilyMap& world_;
+  const FamilyMap& family_map_;
   const Dynamics& dynamics_;
   FeatureTable& features_;
   StateLayout layout_;

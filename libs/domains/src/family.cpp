@@ -43,16 +43,16 @@ std::vector<bool> find_live_states(const Exploration& found) {
 
 class FamilyBuilder {
  public:
-  FamilyBuilder(const FamilyMap& world, const Dynamics& dynamics, const DomainLimits& limits, TomlReport& report)
-      : world_{world},
+  FamilyBuilder(const FamilyMap& family_map, const Dynamics& dynamics, const DomainLimits& limits, TomlReport& report)
+      : family_map_{family_map},
         limits_{limits},
         report_{report},
         dynamics_{dynamics},
         features_{dynamics},
-        explorer_{world, dynamics, features_} {}
+        explorer_{family_map, dynamics, features_} {}
 
   std::vector<DomainMember> build() {
-    const std::size_t num_mdps = world_.num_mdps();
+    const std::size_t num_mdps = family_map_.num_mdps();
     if (!check_size(num_mdps)) return {};
     for (std::size_t mdp = 0; mdp < num_mdps; ++mdp) {
       const Exploration found = explorer_.explore(mdp, limits_.max_states - num_states_);
@@ -70,16 +70,17 @@ class FamilyBuilder {
  private:
   bool check_size(std::size_t num_mdps) {
     const StateLayout& layout = explorer_.layout();
-    if (layout.num_bits() <= 64 && world_.num_cells() <= kMaxCellsPerState * limits_.max_states / num_mdps) return true;
-    report_.error("E0219", world_.map_place,
+    if (layout.num_bits() <= 64 && family_map_.num_cells() <= kMaxCellsPerState * limits_.max_states / num_mdps)
+      return true;
+    report_.error("E0219", family_map_.map_place,
                   "the world is too large: " + std::to_string(num_mdps) + " MDPs of " +
-                      std::to_string(world_.num_cells()) + " cells, " + std::to_string(world_.items.size()) +
-                      " items and " + std::to_string(world_.stations.size()) + " stations");
+                      std::to_string(family_map_.num_cells()) + " cells, " + std::to_string(family_map_.items.size()) +
+                      " items and " + std::to_string(family_map_.stations.size()) + " stations");
     return false;
   }
 
   void report_too_many(std::size_t mdp, std::size_t num_mdps) {
-    report_.error("E0219", world_.map_place,
+    report_.error("E0219", family_map_.map_place,
                   "more than " + std::to_string(limits_.max_states) + " states in the first " +
                       std::to_string(mdp + 1) + " of " + std::to_string(num_mdps) + " MDPs; at most " +
                       std::to_string(limits_.max_states) + " are built",
@@ -106,8 +107,8 @@ class FamilyBuilder {
     for (std::size_t s = 0; s < live.size(); ++s) {
       if (live[s] || found.terminal[s]) continue;
       if (num_dead_++ == 0) {
-        first_dead_ = "robot at " + cell_text(world_, explorer_.layout().robot(found.states[s]));
-        if (!world_.groups.empty()) first_dead_ += " in variant " + variant_text(world_, mdp);
+        first_dead_ = "robot at " + cell_text(family_map_, explorer_.layout().robot(found.states[s]));
+        if (!family_map_.groups.empty()) first_dead_ += " in world " + world_text(family_map_, mdp);
       }
     }
   }
@@ -147,18 +148,18 @@ class FamilyBuilder {
 
   DomainMember finished_member(std::size_t mdp, Mdp process, std::vector<PackedState> states) {
     DomainMember member{std::move(process), std::move(states), {}, {}, {}, 0};
-    member.starts = spread_states(member.mdp, world_.thinning.starts.value_or(member.mdp.num_states()));
+    member.starts = spread_states(member.mdp, family_map_.thinning.starts.value_or(member.mdp.num_states()));
     member.by_state.resize(member.states.size());
     std::iota(member.by_state.begin(), member.by_state.end(), 0U);
     std::sort(member.by_state.begin(), member.by_state.end(),
               [&](std::uint32_t a, std::uint32_t b) { return member.states[a] < member.states[b]; });
-    for (const Item& item : world_.items) {
-      member.item_present.push_back(world_.find(item.homes, mdp).has_value());
+    for (const Item& item : family_map_.items) {
+      member.item_present.push_back(family_map_.find(item.homes, mdp).has_value());
     }
-    for (std::size_t group = 0; group < world_.groups.size(); ++group) {
-      if (!world_.is_on(group, mdp)) continue;
-      for (const MapThing& thing : world_.groups[group].things) {
-        SymbolContent rest = world_.symbols[thing.symbol].content;
+    for (std::size_t group = 0; group < family_map_.groups.size(); ++group) {
+      if (!family_map_.is_on(group, mdp)) continue;
+      for (const MapThing& thing : family_map_.groups[group].things) {
+        SymbolContent rest = family_map_.symbols[thing.symbol].content;
         rest.station.clear();
         member.num_toggled += rest.is_floor() ? 0 : 1;
       }
@@ -166,32 +167,34 @@ class FamilyBuilder {
     return member;
   }
 
-  [[nodiscard]] TomlPlace goal_place() const { return world_.some_goal ? world_.goal_place : world_.map_place; }
+  [[nodiscard]] TomlPlace goal_place() const {
+    return family_map_.some_goal ? family_map_.goal_place : family_map_.map_place;
+  }
 
   void report_failures(std::size_t num_mdps) {
     const auto in_some = [&](std::size_t number) {
-      return num_mdps == 1 ? "" : " in " + std::to_string(number) + " of " + std::to_string(num_mdps) + " variants";
+      return num_mdps == 1 ? "" : " in " + std::to_string(number) + " of " + std::to_string(num_mdps) + " worlds";
     };
     const auto first = [&](std::size_t mdp) {
-      return num_mdps == 1 ? "" : "first failing variant: " + variant_text(world_, mdp);
+      return num_mdps == 1 ? "" : "first failing world: " + world_text(family_map_, mdp);
     };
     if (num_unreachable_ > 0) {
       report_.infeasible("E0207", goal_place(), "the goal cannot be reached from the start" + in_some(num_unreachable_),
                          first(*first_unreachable_));
     }
     if (num_finished_ > 0) {
-      report_.infeasible("E0221", world_.start_place,
+      report_.infeasible("E0221", family_map_.start_place,
                          "there is nothing to do: the episode ends at the start" + in_some(num_finished_),
                          first(*first_finished_));
     }
     if (num_dead_ > 0) {
-      report_.warning("W0202", world_.map_place,
+      report_.warning("W0202", family_map_.map_place,
                       "left out " + std::to_string(num_dead_) + " states from which the goal cannot be reached",
                       "the first: " + first_dead_);
     }
   }
 
-  const FamilyMap& world_;
+  const FamilyMap& family_map_;
   const DomainLimits& limits_;
   TomlReport& report_;
   const Dynamics& dynamics_;
@@ -209,9 +212,9 @@ class FamilyBuilder {
 
 }  // namespace
 
-std::vector<DomainMember> build_family(const FamilyMap& world, const Dynamics& dynamics, const DomainLimits& limits,
-                                       TomlReport& report) {
-  return FamilyBuilder{world, dynamics, limits, report}.build();
+std::vector<DomainMember> build_family(const FamilyMap& family_map, const Dynamics& dynamics,
+                                       const DomainLimits& limits, TomlReport& report) {
+  return FamilyBuilder{family_map, dynamics, limits, report}.build();
 }
 
 }  // namespace kith::detail

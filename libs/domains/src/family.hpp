@@ -13,12 +13,12 @@ namespace kith::detail {
 
 // Explores and checks every MDP of the family. Reports what makes the family
 // infeasible or too large; the result is complete only without errors.
-[[nodiscard]] std::vector<DomainMember> build_family(const FamilyMap& world, const Dynamics& dynamics,
+[[nodiscard]] std::vector<DomainMember> build_family(const FamilyMap& family_map, const Dynamics& dynamics,
                                                      const DomainLimits& limits, TomlReport& report);
 
 // Reports MDPs in which the robot has no finite optimum, ties that matter, and
 // optimal paths longer than max_steps. Needs integral features and discount 1.
-void check_optimum(const FamilyMap& world, const Dynamics& dynamics, const Reward& reward,
+void check_optimum(const FamilyMap& family_map, const Dynamics& dynamics, const Reward& reward,
                    const std::vector<DomainMember>& members, TomlReport& report);
 
 // States from which equally good paths have different feature counts. `solution` is the plan under the weights.

@@ -19,13 +19,13 @@ const DomainMember& member_of(const GridFamily& family, MdpIndex m, const char* 
 
 // The symbol that shows exactly `content`: the cell's own if it does, else the
 // first of the legend that does; without one the cell's own, or a blank for floor.
-char glyph_for(const FamilyMap& world, std::size_t cell, const SymbolContent& content) {
-  const detail::Symbol& own = world.symbols[world.symbol_of[cell]];
+char glyph_for(const FamilyMap& family_map, std::size_t cell, const SymbolContent& content) {
+  const detail::Symbol& own = family_map.symbols[family_map.symbol_of[cell]];
   if (own.content == content) return own.glyph;
-  for (const detail::Symbol& symbol : world.symbols) {
+  for (const detail::Symbol& symbol : family_map.symbols) {
     if (symbol.content == content) return symbol.glyph;
   }
-  return content.is_floor() ? ' ' : world.symbols[world.things_on(cell).back().symbol].glyph;
+  return content.is_floor() ? ' ' : family_map.symbols[family_map.things_on(cell).back().symbol].glyph;
 }
 
 }  // namespace
@@ -33,7 +33,9 @@ char glyph_for(const FamilyMap& world, std::size_t cell, const SymbolContent& co
 GridMap::GridMap(const GridFamily& family) noexcept : family_{&family} {}
 GridMap::GridMap(const ModelDrawing& drawing) noexcept : drawing_{&drawing} {}
 
-const FamilyMap& GridMap::world() const noexcept { return drawing_ != nullptr ? drawing_->world : family_->world; }
+const FamilyMap& GridMap::family_map() const noexcept {
+  return drawing_ != nullptr ? drawing_->family_map : family_->family_map;
+}
 
 void GridMap::check_mdp(MdpIndex m, const char* function) const {
   if (drawing_ == nullptr) {
@@ -43,15 +45,15 @@ void GridMap::check_mdp(MdpIndex m, const char* function) const {
   }
 }
 
-int GridMap::width() const noexcept { return world().width; }
-int GridMap::height() const noexcept { return world().height; }
+int GridMap::width() const noexcept { return family_map().width; }
+int GridMap::height() const noexcept { return family_map().height; }
 const std::vector<std::string>& GridMap::item_names() const noexcept {
   return drawing_ != nullptr ? drawing_->things : family_->item_names;
 }
 
 std::vector<LegendEntry> GridMap::legend() const {
   std::vector<LegendEntry> entries;
-  for (const detail::Symbol& symbol : world().symbols) {
+  for (const detail::Symbol& symbol : family_map().symbols) {
     const detail::SymbolContent& content = symbol.content;
     entries.push_back({symbol.glyph,
                        {content.wall, content.goal, content.terrain, content.destination},
@@ -65,10 +67,10 @@ std::vector<LegendEntry> GridMap::legend() const {
 }
 
 std::size_t GridMap::legend_index(Cell cell) const {
-  const auto index = world().index_of(cell);
+  const auto index = family_map().index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::legend_index: the cell is off the map"};
   // What has a name of its own is looked up here: stations and goals.
-  const FamilyMap& all = world();
+  const FamilyMap& all = family_map();
   std::size_t found = all.symbol_of[*index];
   for (const detail::MapThing& thing : all.things_on(*index)) {
     const auto has_name = [&](std::size_t symbol) {
@@ -82,9 +84,9 @@ std::size_t GridMap::legend_index(Cell cell) const {
 
 CellContent GridMap::content(MdpIndex m, Cell cell) const {
   check_mdp(m, "GridMap::content");
-  const auto index = world().index_of(cell);
+  const auto index = family_map().index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::content: the cell is off the map"};
-  const detail::SymbolContent content = world().content_in(*index, m.value());
+  const detail::SymbolContent content = family_map().content_in(*index, m.value());
   return {content.wall, content.goal, content.terrain, content.destination};
 }
 
@@ -109,7 +111,7 @@ GridState GridMap::drawn_state(MdpIndex m, StateIndex s) const {
     throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
   }
   const std::uint32_t* look = member.looks.data() + s.value() * drawing_->look_size();
-  const FamilyMap& all = world();
+  const FamilyMap& all = family_map();
   GridState state;
   state.robot = all.cell_at(*look++);
   for (std::size_t i = 0; i < drawing_->things.size(); ++i) {
@@ -129,8 +131,8 @@ std::optional<StateIndex> GridMap::find_drawn(MdpIndex m, const GridState& state
   if (state.items.size() != drawing_->things.size() || state.carried.size() != state.items.size()) return std::nullopt;
   std::vector<std::uint32_t> look;
   const auto add_cell = [&](const Cell& cell) {
-    const auto index = world().index_of(cell);
-    look.push_back(index ? static_cast<std::uint32_t>(*index) : static_cast<std::uint32_t>(world().num_cells()));
+    const auto index = family_map().index_of(cell);
+    look.push_back(index ? static_cast<std::uint32_t>(*index) : static_cast<std::uint32_t>(family_map().num_cells()));
   };
   add_cell(state.robot);
   for (std::size_t i = 0; i < state.items.size(); ++i) {
@@ -155,7 +157,7 @@ std::vector<std::pair<Cell, Cell>> GridMap::fences(MdpIndex m) const {
 // The rows of a picture, with what the MDP has.
 std::vector<std::string> GridMap::drawn_rows(MdpIndex m) const {
   check_mdp(m, "GridMap::draw");
-  const FamilyMap& all = world();
+  const FamilyMap& all = family_map();
   std::vector<std::string> rows(static_cast<std::size_t>(all.height));
   for (std::size_t cell = 0; cell < all.num_cells(); ++cell) {
     rows[cell / static_cast<std::size_t>(all.width)] += glyph_for(all, cell, all.content_in(cell, m.value()));
@@ -166,12 +168,12 @@ std::vector<std::string> GridMap::drawn_rows(MdpIndex m) const {
 // Things of a picture where a state has them: destinations, unless `bare` what can be carried, and the robot.
 void GridMap::place_things(MdpIndex m, const GridState& now, bool bare, std::vector<std::string>& rows) const {
   const auto put = [&](const Cell& cell, char glyph) {
-    rows[static_cast<std::size_t>(world().height - cell.y)][static_cast<std::size_t>(cell.x - 1)] = glyph;
+    rows[static_cast<std::size_t>(family_map().height - cell.y)][static_cast<std::size_t>(cell.x - 1)] = glyph;
   };
   for (const bool is_item : {false, true}) {
     if (bare && is_item) return;
     for (const std::size_t i : items_in(m)) {
-      const detail::Symbol& symbol = world().symbols[drawing_->symbol_of_thing[i]];
+      const detail::Symbol& symbol = family_map().symbols[drawing_->symbol_of_thing[i]];
       if (symbol.content.item.empty() != is_item) put(now.items[i], symbol.glyph);
     }
   }
@@ -185,16 +187,17 @@ GridState GridMap::state(MdpIndex m, StateIndex s) const {
     throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
   }
   const detail::PackedState packed = member.states[s.value()];
-  const detail::FamilyMap& world = family_->world;
+  const detail::FamilyMap& family_map = family_->family_map;
   GridState state;
-  state.robot = world.cell_at(family_->layout.robot(packed));
+  state.robot = family_map.cell_at(family_->layout.robot(packed));
   for (std::size_t i = 0; i < member.item_present.size(); ++i) {
     if (!member.item_present[i]) continue;
-    state.items.push_back(world.cell_at(family_->layout.item(packed, i)));
+    state.items.push_back(family_map.cell_at(family_->layout.item(packed, i)));
     state.carried.push_back(family_->layout.carried(packed) == i + 1);
   }
-  for (std::size_t i = 0; i < world.stations.size(); ++i) {
-    if (family_->layout.has_station(packed, i)) state.stations.push_back(world.cell_at(world.stations[i].cell));
+  for (std::size_t i = 0; i < family_map.stations.size(); ++i) {
+    if (family_->layout.has_station(packed, i))
+      state.stations.push_back(family_map.cell_at(family_map.stations[i].cell));
   }
   state.exited = family_->layout.exited(packed);
   return state;
@@ -203,20 +206,20 @@ GridState GridMap::state(MdpIndex m, StateIndex s) const {
 std::optional<StateIndex> GridMap::find_state(MdpIndex m, const GridState& state) const {
   if (drawing_ != nullptr) return find_drawn(m, state);
   const DomainMember& member = member_of(*family_, m, "GridMap::find_state");
-  const detail::FamilyMap& world = family_->world;
-  const auto robot = world.index_of(state.robot);
+  const detail::FamilyMap& family_map = family_->family_map;
+  const auto robot = family_map.index_of(state.robot);
   const std::vector<std::size_t> items = items_in(m);
   if (!robot || state.items.size() != items.size() || state.carried.size() != items.size()) return std::nullopt;
   detail::PackedState packed = family_->layout.with_robot(0, *robot);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto cell = world.index_of(state.items[i]);
+    const auto cell = family_map.index_of(state.items[i]);
     if (!cell) return std::nullopt;
     packed = family_->layout.with_item(packed, items[i], *cell);
     if (state.carried[i]) packed = family_->layout.with_carried(packed, items[i] + 1);
   }
   std::uint64_t stations = 0;
-  for (std::size_t i = 0; i < world.stations.size(); ++i) {
-    const Cell cell = world.cell_at(world.stations[i].cell);
+  for (std::size_t i = 0; i < family_map.stations.size(); ++i) {
+    const Cell cell = family_map.cell_at(family_map.stations[i].cell);
     if (std::ranges::find(state.stations, cell) != state.stations.end()) stations |= std::uint64_t{1} << i;
   }
   packed = family_->layout.with_stations(packed, stations);
@@ -236,13 +239,13 @@ std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) 
     return rows;
   }
 
-  const FamilyMap& world = family_->world;
+  const FamilyMap& family_map = family_->family_map;
   const GridState now = s ? state(m, *s) : GridState{};
   const std::vector<std::size_t> items = items_in(m);
-  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
-  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
-    const Cell at = world.cell_at(cell);
-    SymbolContent content = world.content_in(cell, m.value());
+  std::vector<std::string> rows(static_cast<std::size_t>(family_map.height));
+  for (std::size_t cell = 0; cell < family_map.num_cells(); ++cell) {
+    const Cell at = family_map.cell_at(cell);
+    SymbolContent content = family_map.content_in(cell, m.value());
     bool moved_here = false;
     if (s) {
       content.start = false;
@@ -254,10 +257,10 @@ std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) 
         moved_here = moved_here || (now.items[i] == at && content.item != name);
       }
     }
-    char glyph = glyph_for(world, cell, content);
+    char glyph = glyph_for(family_map, cell, content);
     if (moved_here) glyph = '*';
     if (s && now.robot == at) glyph = '@';
-    rows[cell / static_cast<std::size_t>(world.width)] += glyph;
+    rows[cell / static_cast<std::size_t>(family_map.width)] += glyph;
   }
   return rows;
 }
@@ -268,16 +271,16 @@ std::vector<std::string> GridMap::draw_bare(MdpIndex m, StateIndex s) const {
     place_things(m, state(m, s), true, rows);
     return rows;
   }
-  const FamilyMap& world = family_->world;
+  const FamilyMap& family_map = family_->family_map;
   const GridState now = state(m, s);
-  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
-  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
-    SymbolContent content = world.content_in(cell, m.value());
+  std::vector<std::string> rows(static_cast<std::size_t>(family_map.height));
+  for (std::size_t cell = 0; cell < family_map.num_cells(); ++cell) {
+    SymbolContent content = family_map.content_in(cell, m.value());
     content.start = false;
     content.carried = false;
     content.item.clear();
-    if (std::ranges::find(now.stations, world.cell_at(cell)) == now.stations.end()) content.station.clear();
-    rows[cell / static_cast<std::size_t>(world.width)] += glyph_for(world, cell, content);
+    if (std::ranges::find(now.stations, family_map.cell_at(cell)) == now.stations.end()) content.station.clear();
+    rows[cell / static_cast<std::size_t>(family_map.width)] += glyph_for(family_map, cell, content);
   }
   return rows;
 }

@@ -88,7 +88,7 @@ class DrawingReader {
     read_thing(reader, thing);
     if (reader.has("carried")) thing.carried = variable(reader, "carried");
     reader.finish();
-    const auto& symbols = plan_.world.symbols;
+    const auto& symbols = plan_.family_map.symbols;
     const auto at = std::ranges::find_if(
         symbols, [&](const Symbol& symbol) { return entry.key.size() == 1 && symbol.glyph == entry.key.front(); });
     if (at == symbols.end()) {
@@ -112,15 +112,15 @@ class DrawingReader {
 
   // Items are where the states say; destinations may be drawn in the rows instead.
   void check_movable() {
-    const FamilyMap& world = plan_.world;
-    for (std::size_t i = 0; i < world.symbols.size(); ++i) {
-      const Symbol& symbol = world.symbols[i];
+    const FamilyMap& family_map = plan_.family_map;
+    for (std::size_t i = 0; i < family_map.symbols.size(); ++i) {
+      const Symbol& symbol = family_map.symbols[i];
       if (!is_movable(symbol)) continue;
       const auto number = static_cast<std::uint8_t>(i);
       const bool is_placed = std::ranges::find(plan_.symbols, number) != plan_.symbols.end();
       const bool is_drawn =
-          std::ranges::find(world.symbol_of, number) != world.symbol_of.end() ||
-          std::ranges::any_of(world.painted, [&](const MapThing& thing) { return thing.symbol == number; });
+          std::ranges::find(family_map.symbol_of, number) != family_map.symbol_of.end() ||
+          std::ranges::any_of(family_map.painted, [&](const MapThing& thing) { return thing.symbol == number; });
       const std::string quoted = std::string{"symbol '"} + symbol.glyph + "'";
       if (is_drawn && (is_placed || !symbol.content.item.empty())) {
         report_.error("E0278", symbol.place, quoted + " is on the map, but states place it",
@@ -140,7 +140,7 @@ class DrawingReader {
     for (const RawMdp& mdp : model_.mdps) {
       if (!mdp.name.empty()) names.push_back(mdp.name);
     }
-    for (const CellGroup& group : plan_.world.groups) {
+    for (const CellGroup& group : plan_.family_map.groups) {
       if (std::ranges::find(names, group.name) != names.end()) continue;
       report_.error(
           "E0277", group.place,
@@ -152,28 +152,28 @@ class DrawingReader {
 
   void check_state(const RawState& state, const std::string& what, const DrawnThing& thing,
                    const std::int32_t* values) {
-    const FamilyMap& world = plan_.world;
+    const FamilyMap& family_map = plan_.family_map;
     const std::int64_t column = values[thing.x] - plan_.origin[0];
     const std::int64_t row = values[thing.y] - plan_.origin[1];
     const std::string at = model_.variables[thing.x] + " = " + std::to_string(values[thing.x]) + ", " +
                            model_.variables[thing.y] + " = " + std::to_string(values[thing.y]);
-    if (column < 0 || column >= world.width || row < 0 || row >= world.height) {
+    if (column < 0 || column >= family_map.width || row < 0 || row >= family_map.height) {
       model_report_.error(
           "E0279", state.place,
-          "in state '" + state.key + "' " + what + " is off the map of " + std::to_string(world.width) + " x " +
-              std::to_string(world.height) + " cells: " + at,
+          "in state '" + state.key + "' " + what + " is off the map of " + std::to_string(family_map.width) + " x " +
+              std::to_string(family_map.height) + " cells: " + at,
           plan_.origin == std::array<std::int64_t, 2>{1, 1}
               ? "columns and rows are counted from 1, from the top left; [model.drawing] origin = "
                 "[0, 0] counts from 0"
               : "the top left cell is " + std::to_string(plan_.origin[0]) + ", " + std::to_string(plan_.origin[1]));
       return;
     }
-    const auto cell = static_cast<std::size_t>(row * world.width + column);
-    const Symbol& symbol = world.symbols[world.symbol_of[cell]];
+    const auto cell = static_cast<std::size_t>(row * family_map.width + column);
+    const Symbol& symbol = family_map.symbols[family_map.symbol_of[cell]];
     if (!symbol.content.wall || symbol.is_optional()) return;
     model_report_.error("E0279", state.place,
                         "in state '" + state.key + "' " + what + " is inside a wall of the map: " + at,
-                        "draw another symbol at " + cell_text(world, cell) + ", or correct the state");
+                        "draw another symbol at " + cell_text(family_map, cell) + ", or correct the state");
   }
 
   const RawModel& model_;
@@ -207,7 +207,7 @@ class MemberDrawer {
   void add_look(std::size_t s) {
     const std::int32_t* values = member_.variables.data() + s * num_variables_;
     const auto cell = [&](const DrawnThing& thing) {
-      return static_cast<std::uint32_t>((values[thing.y] - plan_.origin[1]) * plan_.world.width + values[thing.x] -
+      return static_cast<std::uint32_t>((values[thing.y] - plan_.origin[1]) * plan_.family_map.width + values[thing.x] -
                                         plan_.origin[0]);
     };
     const std::uint32_t robot = cell(plan_.robot);
@@ -221,8 +221,8 @@ class MemberDrawer {
 
   // Between neighbouring cells where the robot can be, of which neither leads to the other.
   void find_fences() {
-    const auto width = static_cast<std::size_t>(plan_.world.width);
-    const std::size_t num_cells = plan_.world.num_cells();
+    const auto width = static_cast<std::size_t>(plan_.family_map.width);
+    const std::size_t num_cells = plan_.family_map.num_cells();
     std::vector<bool> is_met(num_cells, false);
     std::vector<bool> is_left(num_cells, false);  // the robot acts there
     std::vector<bool> to_right(num_cells, false);
@@ -242,7 +242,7 @@ class MemberDrawer {
     }
     const auto add = [&](std::size_t a, std::size_t b, bool is_open) {
       if (is_open || !is_met[a] || !is_met[b] || !(is_left[a] || is_left[b])) return;
-      result_.fences.emplace_back(plan_.world.cell_at(a), plan_.world.cell_at(b));
+      result_.fences.emplace_back(plan_.family_map.cell_at(a), plan_.family_map.cell_at(b));
     };
     for (std::size_t cell = 0; cell < num_cells; ++cell) {
       if ((cell + 1) % width != 0) add(cell, cell + 1, to_right[cell]);
@@ -308,8 +308,8 @@ DrawingPlan read_drawing(TomlReader& file, TomlReader& drawing, const RawModel& 
     for (const TomlEntry& entry : drawing.content().entries()) drawing.know(entry.key);
     return plan;
   }
-  plan.world = read_picture(file, files, model_report);
-  if (!plan.world.is_sound) {
+  plan.family_map = read_picture(file, files, model_report);
+  if (!plan.family_map.is_sound) {
     for (const TomlEntry& entry : drawing.content().entries()) drawing.know(entry.key);
     return plan;
   }
@@ -324,11 +324,11 @@ ModelDrawing draw_model(DrawingPlan&& plan, const ExplicitFamily& family, TomlRe
   drawing.things = plan.names;
   drawing.symbol_of_thing = plan.symbols;
   for (const ExplicitMember& member : family.members) {
-    std::uint64_t variant = 0;
-    for (std::size_t group = 0; group < plan.world.groups.size(); ++group) {
-      if (plan.world.groups[group].name == member.name) variant |= plan.world.bit_of(group);
+    std::uint64_t mask = 0;
+    for (std::size_t group = 0; group < plan.family_map.groups.size(); ++group) {
+      if (plan.family_map.groups[group].name == member.name) mask |= plan.family_map.bit_of(group);
     }
-    plan.world.variants.push_back(variant);
+    plan.family_map.masks.push_back(mask);
     drawing.members.push_back(MemberDrawer{plan, family.variables.size(), member}.draw());
   }
   for (std::size_t m = 0; m < drawing.members.size(); ++m) {
@@ -341,7 +341,7 @@ ModelDrawing draw_model(DrawingPlan&& plan, const ExplicitFamily& family, TomlRe
                    "place what differs under [model.drawing.things], if people have to know it");
     break;
   }
-  drawing.world = std::move(plan.world);
+  drawing.family_map = std::move(plan.family_map);
   return drawing;
 }
 

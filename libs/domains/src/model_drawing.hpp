@@ -27,7 +27,7 @@ struct DrawnMember {
 
 // A picture of an explicit model: a map, and where the robot and other things are on it in every state.
 struct ModelDrawing {
-  detail::FamilyMap world;
+  detail::FamilyMap family_map;
   std::vector<std::string> things;  // that states place, apart from the robot
   std::vector<std::uint8_t> symbol_of_thing;
   std::vector<DrawnMember> members;
@@ -47,7 +47,7 @@ struct DrawnThing {
 
 // What a domain file says about the drawing of its model.
 struct DrawingPlan {
-  FamilyMap world;
+  FamilyMap family_map;
   std::array<std::int64_t, 2> origin{1, 1};  // x and y of the top left cell
   bool has_walls = true;                     // whether lines are drawn where no action leads to the next cell
   DrawnThing robot;

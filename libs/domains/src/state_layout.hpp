@@ -15,11 +15,11 @@ using PackedState = std::uint64_t;
 class StateLayout {
  public:
   StateLayout() = default;
-  explicit StateLayout(const FamilyMap& world)
-      : cell_bits_{static_cast<unsigned>(std::bit_width(world.num_cells() - 1))},
-        num_items_{static_cast<unsigned>(world.items.size())},
-        num_stations_{static_cast<unsigned>(world.stations.size())},
-        carried_bits_{static_cast<unsigned>(std::bit_width(world.items.size()))} {}
+  explicit StateLayout(const FamilyMap& family_map)
+      : cell_bits_{static_cast<unsigned>(std::bit_width(family_map.num_cells() - 1))},
+        num_items_{static_cast<unsigned>(family_map.items.size())},
+        num_stations_{static_cast<unsigned>(family_map.stations.size())},
+        carried_bits_{static_cast<unsigned>(std::bit_width(family_map.items.size()))} {}
 
   // More than 64: the world is too large for a word.
   [[nodiscard]] std::size_t num_bits() const {

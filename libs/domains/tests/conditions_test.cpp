@@ -200,7 +200,7 @@ TEST(OptionalGroups, OfOneNameToggleTogetherAcrossSymbols) {
   }
   const Domain domain = sound_domain(text);
   EXPECT_EQ(domain.num_mdps(), 2u);
-  EXPECT_EQ(domain.describe_variant(MdpIndex{0}), "a@{} b@{}");
+  EXPECT_EQ(domain.describe_world(MdpIndex{0}), "a@{} b@{}");
   EXPECT_EQ(domain.map()->content(MdpIndex{1}, {2, 2}).terrain, "a");
   EXPECT_EQ(domain.map()->content(MdpIndex{1}, {2, 4}).terrain, "b");
   EXPECT_EQ(domain.map()->content(MdpIndex{0}, {2, 2}).terrain, "");

@@ -124,7 +124,7 @@ std::vector<Case> cases() {
       {"terrain_symbol", {{"\"wall\"", "\"gravel\""}}, "E0205 9:7", "{ terrain = \"gravel\" }"},
       {"number_symbol", {{"\"wall\"", "3"}}, "E0205 9:7"},
       {"no_start", {{"S.rG", "..rG"}}, "E0206 6:8, W0201 11:1"},
-      {"unreachable", {{"S.rG", "S#rG"}}, "E0207 6:13", "first failing variant: rubble@{}", true},
+      {"unreachable", {{"S.rG", "S#rG"}}, "E0207 6:13", "first failing world: rubble@{}", true},
       {"unreachable_in_some",
        {{"{ terrain = \"rubble\"", "{ wall = true"}, {"\"leave:rubble\"", "\"!action\""}},
        "E0207 6:13",
@@ -308,23 +308,23 @@ const std::map<std::string, std::string> kMessages{
     {"robot_symbol", "'@' cannot be a symbol: it must be one printable ASCII character other than '@'"},
     {"terrain_symbol", "a symbol alone can be \"wall\" or \"floor\", not \"gravel\""},
     {"no_start", "the map has no start"},
-    {"unreachable_in_some", "the goal cannot be reached from the start in 1 of 2 variants"},
+    {"unreachable_in_some", "the goal cannot be reached from the start in 1 of 2 worlds"},
     {"two_starts", "there is a second start"},
     {"no_goal", "the map has no goal"},
     {"no_such_item", "destination of an unknown item 'key'"},
     {"condition_end", "bad condition: expected a condition such as leave:X, '!' or '('"},
     {"no_such_terrain", "condition names an unknown terrain or station 'rubbel'"},
     {"too_many_variants", "17 optional things make about 131072 MDPs; at most 65536 are built"},
-    {"finished", "there is nothing to do: the episode ends at the start in 2 of 2 variants"},
+    {"finished", "there is nothing to do: the episode ends at the start in 2 of 2 worlds"},
     {"no_moves", "the robot has no action to move with"},
     {"feature_twice", "feature 'rubble' is declared twice"},
     {"missing_weight", "feature 'rubble' has no weight"},
     {"zero_weights", "all weights are zero, so nothing matters to the robot"},
     {"positive_cycle",
-     "the robot can collect unlimited reward by going in circles: (1,1) right (2,1) left (1,1); in 2 of 2 variants, "
+     "the robot can collect unlimited reward by going in circles: (1,1) right (2,1) left (1,1); in 2 of 2 worlds, "
      "first in: rubble@{}"},
     {"zero_cycle",
-     "the robot can go in circles at no cost: (1,1) right (2,1) left (1,1); in 2 of 2 variants, first in: "
+     "the robot can go in circles at no cost: (1,1) right (2,1) left (1,1); in 2 of 2 worlds, first in: "
      "rubble@{}"},
     {"prior_clash", "the prior { step = 1 } contradicts the weights: (0,1) . (-2,-1) is negative"},
     {"family_worlds_zero", "'worlds' must be at least 1 and at most 65536, not 0"},
@@ -376,7 +376,7 @@ TEST(DomainErrors, NameACycleInWords) {
               message.find("(2,1) right (3,1) left (2,1)") != std::string::npos ||
               message.find("(3,1) left (2,1) right (3,1)") != std::string::npos)
       << message;
-  EXPECT_NE(message.find("in 2 of 2 variants"), std::string::npos) << message;
+  EXPECT_NE(message.find("in 2 of 2 worlds"), std::string::npos) << message;
 }
 
 TEST(DomainErrors, WarnWhereTheWeightsLieOnTheEdge) {

@@ -44,7 +44,7 @@ TEST(Skateboard, HasItsStatesWhereTheThingsAre) {
   EXPECT_EQ(domain.mdp(MdpIndex{0b111}).num_states(), 360u);
   EXPECT_TRUE(domain.map()->items_in(MdpIndex{0b110}).empty());
   EXPECT_EQ(domain.map()->items_in(MdpIndex{0b001}), (std::vector<std::size_t>{0}));
-  EXPECT_EQ(domain.describe_variant(MdpIndex{0b101}), "path@{(1,4),(2,4),(3,4),(4,4)} board@{(1,1)}");
+  EXPECT_EQ(domain.describe_world(MdpIndex{0b101}), "path@{(1,4),(2,4),(3,4),(4,4)} board@{(1,1)}");
 }
 
 TEST(Domain, NamesItsStates) {
@@ -175,7 +175,7 @@ TEST_P(DomainLaws, FeaturesAreThereIfSomeTransitionHasThem) {
 TEST_P(DomainLaws, VariantsCountUpWithTheLastBitFastest) {
   for (std::size_t i = 0; i < domain_.num_mdps(); ++i) {
     std::size_t index = 0;
-    for (const bool bit : domain_.variant(MdpIndex{i})) index = 2 * index + (bit ? 1 : 0);
+    for (const bool bit : domain_.present_things(MdpIndex{i})) index = 2 * index + (bit ? 1 : 0);
     ASSERT_EQ(index, i);
   }
 }
@@ -192,7 +192,7 @@ TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
     return list;
   };
   const auto toggled = [&](MdpIndex m) {
-    auto bits = domain_.variant(m);
+    auto bits = domain_.present_things(m);
     if (domain_.id() == "item-delivery") bits.pop_back();  // the charger
     return bits;
   };

@@ -154,9 +154,9 @@ TEST(ExplicitModel, HoldsSeveralMdpsThatShareStates) {
   texts["transitions.csv"] = kTwoMdps;
   const Domain domain = sound_model(texts);
   ASSERT_EQ(domain.num_mdps(), 2u);
-  EXPECT_EQ(domain.describe_variant(kFirst), "dry");
-  EXPECT_EQ(domain.describe_variant(MdpIndex{1}), "wet");
-  EXPECT_TRUE(domain.variant(kFirst).empty());
+  EXPECT_EQ(domain.describe_world(kFirst), "dry");
+  EXPECT_EQ(domain.describe_world(MdpIndex{1}), "wet");
+  EXPECT_TRUE(domain.present_things(kFirst).empty());
   EXPECT_EQ(domain.num_starts(), 4u);
   EXPECT_TRUE(domain.mdp(kFirst).is_deterministic());
   EXPECT_FALSE(domain.mdp(kFirst).has_feature(0));

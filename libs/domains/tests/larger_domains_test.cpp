@@ -106,7 +106,7 @@ TEST(RescueFloor, HasSixteenWorldsOfAFewThousandStates) {
   EXPECT_EQ(domain.num_mdps(), 16u);
   EXPECT_EQ(domain.num_starts(), 480u);
   EXPECT_THAT(domain.map()->item_names(), ::testing::ElementsAre("medkit", "casualty"));
-  EXPECT_EQ(domain.variant(MdpIndex{0}).size(), 17u);
+  EXPECT_EQ(domain.present_things(MdpIndex{0}).size(), 17u);
   std::size_t sum = 0;
   for (const auto& [size, number] : sizes_of(domain)) {
     EXPECT_GT(size, 1000u);

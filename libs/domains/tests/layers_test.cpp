@@ -140,7 +140,7 @@ TEST(Layers, DrawWorldsWithStartsAndWallsOfTheirOwn) {
   EXPECT_THAT(picture(domain, 1), ElementsAre("....S", "....G"));
   EXPECT_EQ(domain.map()->state(MdpIndex{1}, domain.initial_state(MdpIndex{1})).robot, (Cell{5, 2}));
   EXPECT_EQ(domain.mdp(MdpIndex{0}).num_states(), 8u) << "ten cells without wall and goal";
-  EXPECT_THAT(domain.describe_variant(MdpIndex{0}), HasSubstr("from the west: "));
+  EXPECT_THAT(domain.describe_world(MdpIndex{0}), HasSubstr("from the west: "));
   EXPECT_EQ(domain.world_name(MdpIndex{0}), "from the west");
   EXPECT_EQ(domain.world_name(MdpIndex{1}), "");
   EXPECT_EQ(domain.find_world("From the West"), MdpIndex{0});
@@ -155,8 +155,8 @@ TEST(Layers, NameSingleThingsInListedWorlds) {
                 "[[family.world]]\npresent = [\"rubble(3,1)\"]\n[[family.world]]\npresent = [\"rubble\"]\n",
             {});
   ASSERT_EQ(domain.num_mdps(), 2u);
-  EXPECT_EQ(domain.variant(MdpIndex{0}), (std::vector<bool>{false, true, false}));
-  EXPECT_EQ(domain.variant(MdpIndex{1}), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(domain.present_things(MdpIndex{0}), (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(domain.present_things(MdpIndex{1}), (std::vector<bool>{true, true, true}));
 }
 
 TEST(Layers, LetTheRobotStartWithAnItem) {
@@ -333,7 +333,7 @@ std::vector<LayerCase> layer_cases() {
       {"start_on_wall", rows + layer + "rows = [\"#\"]\noptional = \"a\"\n", "", "E0209 layers.toml 13:10"},
       {"second_start", rows + layer + "rows = [\" S\"]\n", "", "E0208 layers.toml 13:11"},
       {"start_in_some", "rows = [\"..mG\"]\n" + kLegend + layer + "rows = [\"S\"]\noptional = \"a\"\n", "",
-       "E0206 layers.toml 13:10", "variant start"},
+       "E0206 layers.toml 13:10", "world start"},
       {"two_stations",
        "rows = [\"SAmG\"]\n" + kLegend + "\"A\" = { station = \"a\" }\n\"B\" = { station = \"b\" }\n" + layer +
            "rows = [\" B\"]\n",
@@ -347,7 +347,7 @@ std::vector<LayerCase> layer_cases() {
       {"item_on_two_cells",
        "rows = [\"S.mG\"]\n" + kLegend + "\"a\" = { item = \"a\" }\n" + layer + "rows = [\" a\"]\noptional = \"x\"\n" +
            layer + "rows = [\"a\"]\noptional = \"y\"\n",
-       "", "E0211 layers.toml 4:8", "in variant"},
+       "", "E0211 layers.toml 4:8", "in world"},
       {"carried_nothing", rows + "\"b\" = { terrain = \"x\", carried = true }\n", "", "E0272 layers.toml 12:34",
        "item ="},
       {"carried_elsewhere", "rows = [\"SbmG\"]\n" + kLegend + kBox, "", "E0272 layers.toml 4:8", "carried = true"},

@@ -42,11 +42,11 @@ weights = { rubble = -2.5, charge = 1.5, step = -1 }
 )";
 }
 
-std::vector<std::string> variants_of(const Domain& domain) {
+std::vector<std::string> worlds_of(const Domain& domain) {
   std::vector<std::string> texts;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     std::string text;
-    for (const bool bit : domain.variant(m)) text += bit ? '1' : '0';
+    for (const bool bit : domain.present_things(m)) text += bit ? '1' : '0';
     texts.push_back(text);
   }
   return texts;
@@ -54,17 +54,17 @@ std::vector<std::string> variants_of(const Domain& domain) {
 
 TEST(Thinning, BeginsWithKindsAndPairsOfKindsAndEndsWithEverything) {
   const Domain domain = sound_domain(with_family("[family]\nworlds = 8\nseed = 3"));
-  const auto variants = variants_of(domain);
-  ASSERT_EQ(variants.size(), 8u);
-  EXPECT_THAT(std::vector(variants.begin(), variants.begin() + 7),
+  const auto masks = worlds_of(domain);
+  ASSERT_EQ(masks.size(), 8u);
+  EXPECT_THAT(std::vector(masks.begin(), masks.begin() + 7),
               ElementsAre("0000000", "1110000", "0001110", "0000001", "1111110", "1110001", "0001111"));
-  EXPECT_EQ(variants[7], "1111111");
+  EXPECT_EQ(masks[7], "1111111");
 }
 
 TEST(Thinning, DrawsEveryFurtherWorldOnceAndAlwaysTheSame) {
-  const auto few = variants_of(sound_domain(with_family("[family]\nworlds = 20\nseed = 3")));
-  const auto more = variants_of(sound_domain(with_family("[family]\nworlds = 40\nseed = 3")));
-  const auto others = variants_of(sound_domain(with_family("[family]\nworlds = 40\nseed = 4")));
+  const auto few = worlds_of(sound_domain(with_family("[family]\nworlds = 20\nseed = 3")));
+  const auto more = worlds_of(sound_domain(with_family("[family]\nworlds = 40\nseed = 3")));
+  const auto others = worlds_of(sound_domain(with_family("[family]\nworlds = 40\nseed = 4")));
   EXPECT_EQ(std::set(more.begin(), more.end()).size(), 40u);
   EXPECT_TRUE(std::equal(few.begin(), few.end() - 1, more.begin()));
   EXPECT_EQ(more.back(), "1111111");
@@ -75,9 +75,9 @@ TEST(Thinning, DrawsEveryFurtherWorldOnceAndAlwaysTheSame) {
 }
 
 TEST(Thinning, BuildsEveryWorldWhereAllAreAskedFor) {
-  const auto variants = variants_of(sound_domain(with_family("[family]\nworlds = 128")));
-  EXPECT_EQ(std::set(variants.begin(), variants.end()).size(), 128u);
-  EXPECT_EQ(variants_of(sound_domain(with_family("[family]\nworlds = 1"))), std::vector<std::string>{"0000000"});
+  const auto masks = worlds_of(sound_domain(with_family("[family]\nworlds = 128")));
+  EXPECT_EQ(std::set(masks.begin(), masks.end()).size(), 128u);
+  EXPECT_EQ(worlds_of(sound_domain(with_family("[family]\nworlds = 1"))), std::vector<std::string>{"0000000"});
 }
 
 TEST(Thinning, KeepsWhatAWorldIs) {
@@ -85,10 +85,10 @@ TEST(Thinning, KeepsWhatAWorldIs) {
   const Domain some = sound_domain(with_family("[family]\nworlds = 24"));
   for (MdpIndex m{0}; m.value() < some.num_mdps(); ++m) {
     std::size_t index = 0;
-    for (const bool bit : some.variant(m)) index = 2 * index + (bit ? 1 : 0);
+    for (const bool bit : some.present_things(m)) index = 2 * index + (bit ? 1 : 0);
     const MdpIndex same{index};
-    ASSERT_EQ(some.variant(m), all.variant(same));
-    EXPECT_EQ(some.describe_variant(m), all.describe_variant(same));
+    ASSERT_EQ(some.present_things(m), all.present_things(same));
+    EXPECT_EQ(some.describe_world(m), all.describe_world(same));
     EXPECT_EQ(some.map()->draw(m, std::nullopt), all.map()->draw(same, std::nullopt));
     ASSERT_EQ(some.mdp(m).num_states(), all.mdp(same).num_states());
     for (StateIndex s{0}; s.value() < some.mdp(m).num_states(); ++s) {
@@ -113,10 +113,10 @@ TEST(Thinning, TellsSixtyFourThingsApart) {
   text.replace(begin, text.find("]", begin) - begin, rows);
   const Domain domain = sound_domain(text);
   EXPECT_EQ(domain.num_mdps(), 100u);
-  const auto variants = variants_of(domain);
-  EXPECT_EQ(std::set(variants.begin(), variants.end()).size(), 100u);
-  EXPECT_EQ(variants.front(), std::string(64, '0'));
-  EXPECT_EQ(variants.back(), std::string(64, '1'));
+  const auto masks = worlds_of(domain);
+  EXPECT_EQ(std::set(masks.begin(), masks.end()).size(), 100u);
+  EXPECT_EQ(masks.front(), std::string(64, '0'));
+  EXPECT_EQ(masks.back(), std::string(64, '1'));
   EXPECT_EQ(domain.dissimilarity({MdpIndex{0}, StateIndex{0}}, {MdpIndex{99}, StateIndex{0}}), 64);
 }
 

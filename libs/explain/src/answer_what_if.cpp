@@ -51,9 +51,9 @@ void Answerer::what_if() {
 
 Answerer::Effects Answerer::worlds_it_matters_in(MdpIndex base, MdpIndex world) const {
   std::map<std::vector<bool>, MdpIndex> numbers;
-  for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) numbers.emplace(domain_.variant(m), m);
+  for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) numbers.emplace(domain_.present_things(m), m);
   const auto asked = toggled_groups(domain_, base, world);
-  const auto there = domain_.variant(world);
+  const auto there = domain_.present_things(world);
   Effects effects{0, 0, base, world};
   std::optional<std::size_t> nearest;
   for (const auto& [variant, m] : numbers) {
@@ -76,7 +76,7 @@ Answerer::Effects Answerer::worlds_it_matters_in(MdpIndex base, MdpIndex world) 
 
 MdpIndex Answerer::world_with(MdpIndex base) const {
   const auto groups = domain_.optional_groups();
-  auto variant = domain_.variant(base);
+  auto variant = domain_.present_things(base);
   for (const auto& condition : question_.conditions) {
     bool found = false, changes = false;
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -98,7 +98,7 @@ MdpIndex Answerer::world_with(MdpIndex base) const {
     }
   }
   for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) {
-    if (domain_.variant(m) == variant) return m;
+    if (domain_.present_things(m) == variant) return m;
   }
   fail(text_, question_.conditions.front().place, "E1108", "no world is like that",
        "its worlds are a sample: ask 'in world N' about another one");

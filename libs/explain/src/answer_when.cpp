@@ -58,11 +58,11 @@ void Answerer::when_alike(const std::vector<World>& worlds) {
 std::vector<Answerer::Pair> Answerer::neighbours(const std::vector<World>& worlds) const {
   const auto groups = domain_.optional_groups();
   std::map<std::vector<bool>, std::size_t> numbers;
-  for (std::size_t m = 0; m < worlds.size(); ++m) numbers.emplace(domain_.variant(MdpIndex{m}), m);
+  for (std::size_t m = 0; m < worlds.size(); ++m) numbers.emplace(domain_.present_things(MdpIndex{m}), m);
   std::vector<Pair> pairs;
   for (std::size_t m = 0; m < worlds.size(); ++m) {
     if (!worlds[m].happens) continue;
-    const auto variant = domain_.variant(MdpIndex{m});
+    const auto variant = domain_.present_things(MdpIndex{m});
     const auto present = static_cast<std::size_t>(std::count(variant.begin(), variant.end(), true));
     for (std::size_t g = 0; g < groups.size(); ++g) {
       auto other = variant;

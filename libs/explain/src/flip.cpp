@@ -113,8 +113,8 @@ std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
 }
 
 std::vector<std::size_t> toggled_groups(const Domain& domain, MdpIndex a, MdpIndex b) {
-  const auto here = domain.variant(a);
-  const auto there = domain.variant(b);
+  const auto here = domain.present_things(a);
+  const auto there = domain.present_things(b);
   std::vector<std::size_t> toggled;
   for (std::size_t g = 0; g < here.size(); ++g) {
     if (here[g] != there[g]) toggled.push_back(g);
@@ -126,7 +126,7 @@ std::string difference_in_words(const Domain& domain, MdpIndex world, std::span<
   const auto map = domain.map();
   if (!map) return {};
   const auto groups = domain.optional_groups();
-  const auto there = domain.variant(world);
+  const auto there = domain.present_things(world);
   std::vector<std::string> added, removed;
   for (const auto g : toggled) (there[g] ? added : removed).push_back(thing_in_words(*map, groups[g]));
   std::string text;

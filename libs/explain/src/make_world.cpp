@@ -107,7 +107,7 @@ class WorldMaker {
       if (conveys) best = std::min(best, half_spaces.size());
     }
     const auto things = [&](MdpIndex m) {
-      const auto there = domain_.variant(m);
+      const auto there = domain_.present_things(m);
       return std::count(there.begin(), there.end(), true);
     };
     std::vector<MdpIndex> bases;

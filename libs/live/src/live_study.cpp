@@ -217,7 +217,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   std::string identity = atlas->domain().id() + '/' + std::to_string(max_answer_actions(atlas->domain()));
   for (MdpIndex m{0}; m.value() < atlas->domain().num_mdps(); ++m) {
-    identity += '/' + std::to_string(atlas->domain().mdp(m).num_states()) + atlas->domain().describe_variant(m);
+    identity += '/' + std::to_string(atlas->domain().mdp(m).num_states()) + atlas->domain().describe_world(m);
   }
   live->key = sha256(identity).substr(0, 8);
   live->atlas = std::move(atlas);

@@ -4,8 +4,8 @@
 
 namespace kith::detail {
 
-std::string cell_text(const FamilyMap& world, std::size_t cell) {
-  const auto width = static_cast<std::size_t>(world.width);
+std::string cell_text(const FamilyMap& family_map, std::size_t cell) {
+  const auto width = static_cast<std::size_t>(family_map.width);
   return '(' + std::to_string(cell % width + 1) + ',' + std::to_string(cell / width + 1) + ')';
 }
 
@@ -19,24 +19,25 @@ std::string symbol_name(const Symbol& symbol) {
   return content.wall ? "wall" : std::string{symbol.glyph};
 }
 
-std::string variant_text(const FamilyMap& world, std::size_t mdp) {
+std::string world_text(const FamilyMap& family_map, std::size_t mdp) {
   std::vector<std::string> names;
   std::vector<std::string> lists;
-  for (std::size_t group = 0; group < world.groups.size(); ++group) {
-    for (const MapThing& thing : world.groups[group].things) {
-      const std::string name = symbol_name(world.symbols[thing.symbol]);
+  for (std::size_t group = 0; group < family_map.groups.size(); ++group) {
+    for (const MapThing& thing : family_map.groups[group].things) {
+      const std::string name = symbol_name(family_map.symbols[thing.symbol]);
       auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
       if (at == names.size()) {
         names.push_back(name);
         lists.emplace_back();
       }
-      if (!world.is_on(group, mdp)) continue;
+      if (!family_map.is_on(group, mdp)) continue;
       if (!lists[at].empty()) lists[at] += ',';
-      lists[at] += cell_text(world, thing.cell);
+      lists[at] += cell_text(family_map, thing.cell);
     }
   }
   std::string text;
-  if (!world.variant_names.empty() && !world.variant_names[mdp].empty()) text = world.variant_names[mdp] + ": ";
+  if (!family_map.world_names.empty() && !family_map.world_names[mdp].empty())
+    text = family_map.world_names[mdp] + ": ";
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) text += ' ';
     text += names[i] + "@{" + lists[i] + '}';
@@ -44,10 +45,10 @@ std::string variant_text(const FamilyMap& world, std::size_t mdp) {
   return text;
 }
 
-TomlPlace place_of_cell(const FamilyMap& world, std::size_t cell) {
-  if (world.row_places.empty()) return world.source_place;
-  const auto width = static_cast<std::size_t>(world.width);
-  TomlPlace place = world.row_places.at(cell / width);
+TomlPlace place_of_cell(const FamilyMap& family_map, std::size_t cell) {
+  if (family_map.row_places.empty()) return family_map.source_place;
+  const auto width = static_cast<std::size_t>(family_map.width);
+  TomlPlace place = family_map.row_places.at(cell / width);
   // Written with escapes, columns cannot be counted: point at the row.
   if (place.length != width + 2) return place;
   place.column += 1 + cell % width;

@@ -62,15 +62,16 @@ bool LayersReader::read_base(TomlReader& map) {
     map.know("layer");
     return false;
   }
-  world_.source_place = drawing->place;
-  world_.width = static_cast<int>(drawing->width);
-  world_.height = static_cast<int>(drawing->height);
+  family_map_.source_place = drawing->place;
+  family_map_.width = static_cast<int>(drawing->width);
+  family_map_.height = static_cast<int>(drawing->height);
   if (drawing->rows != nullptr) {
-    for (const TomlValue& row : *drawing->rows) world_.row_places.push_back(row.place());
+    for (const TomlValue& row : *drawing->rows) family_map_.row_places.push_back(row.place());
   }
-  world_.symbol_of.reserve(drawing->symbols.size());
-  for (const int symbol : drawing->symbols) world_.symbol_of.push_back(static_cast<std::uint8_t>(std::max(symbol, 0)));
-  if (world_.symbols.empty()) world_.symbols.emplace_back();
+  family_map_.symbol_of.reserve(drawing->symbols.size());
+  for (const int symbol : drawing->symbols)
+    family_map_.symbol_of.push_back(static_cast<std::uint8_t>(std::max(symbol, 0)));
+  if (family_map_.symbols.empty()) family_map_.symbols.emplace_back();
   return true;
 }
 
@@ -91,7 +92,7 @@ void LayersReader::read_layer(const TomlValue& value) {
     const bool* flag = optional->boolean();
     const std::string* name = optional->string();
     const bool is_name =
-        name != nullptr && !name->empty() && (world_.is_picture || std::ranges::all_of(*name, is_name_character));
+        name != nullptr && !name->empty() && (family_map_.is_picture || std::ranges::all_of(*name, is_name_character));
     if (flag == nullptr && name == nullptr) {
       report_.error("E0108", optional->place(),
                     "optional must be true or a name, not " + std::string{optional->kind_name()});
@@ -133,8 +134,8 @@ void LayersReader::read_layer(const TomlValue& value) {
 
 void LayersReader::paint(const Drawing& drawing, std::size_t column, std::size_t row,
                          const std::optional<std::string>& toggle) {
-  const auto width = static_cast<std::size_t>(world_.width);
-  const auto height = static_cast<std::size_t>(world_.height);
+  const auto width = static_cast<std::size_t>(family_map_.width);
+  const auto height = static_cast<std::size_t>(family_map_.height);
   if (column - 1 + drawing.width > width || row - 1 + drawing.height > height) {
     const auto size = [](std::size_t w, std::size_t h) { return std::to_string(w) + " x " + std::to_string(h); };
     report_.error("E0265", drawing.place,
@@ -149,12 +150,12 @@ void LayersReader::paint(const Drawing& drawing, std::size_t column, std::size_t
     const std::size_t x = i % drawing.width;
     const std::size_t y = i / drawing.width;
     const auto symbol = static_cast<std::uint8_t>(drawing.symbols[i]);
-    if (world_.symbols[symbol].content.is_floor()) continue;
+    if (family_map_.symbols[symbol].content.is_floor()) continue;
     TomlPlace place = drawing.place;
     if (drawing.rows != nullptr) place = report_.document().inside((*drawing.rows)[y], x);
-    if (toggle && world_.symbols[symbol].is_optional() && !said) {
+    if (toggle && family_map_.symbols[symbol].is_optional() && !said) {
       report_.error("E0213", place,
-                    std::string{"symbol '"} + world_.symbols[symbol].glyph + "' is optional, and so is the layer",
+                    std::string{"symbol '"} + family_map_.symbols[symbol].glyph + "' is optional, and so is the layer",
                     "leave out one of the two");
       said = true;
     }
@@ -235,8 +236,8 @@ std::optional<LayersReader::Drawing> LayersReader::read_rows(const TomlValue& va
   Drawing drawing{rows->front().string()->size(), rows->size(), {}, rows, value.place()};
   std::array<int, 256> number{};
   number.fill(-1);
-  for (std::size_t i = 0; i < world_.symbols.size(); ++i) {
-    number[static_cast<unsigned char>(world_.symbols[i].glyph)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < family_map_.symbols.size(); ++i) {
+    number[static_cast<unsigned char>(family_map_.symbols[i].glyph)] = static_cast<int>(i);
   }
   for (const TomlValue& row : *rows) {
     const std::string& text = *row.string();
@@ -256,13 +257,13 @@ std::optional<LayersReader::Drawing> LayersReader::read_rows(const TomlValue& va
 
 std::string LayersReader::suggestion_for_undeclared() const {
   std::string hint = "declared:";
-  for (const Symbol& symbol : world_.symbols) hint += std::string{" '"} + symbol.glyph + "'";
-  return world_.symbols.empty() ? "" : hint;
+  for (const Symbol& symbol : family_map_.symbols) hint += std::string{" '"} + symbol.glyph + "'";
+  return family_map_.symbols.empty() ? "" : hint;
 }
 
 int LayersReader::symbol_with(char glyph) const {
-  for (std::size_t i = 0; i < world_.symbols.size(); ++i) {
-    if (world_.symbols[i].glyph == glyph) return static_cast<int>(i);
+  for (std::size_t i = 0; i < family_map_.symbols.size(); ++i) {
+    if (family_map_.symbols[i].glyph == glyph) return static_cast<int>(i);
   }
   return kNothing;
 }
@@ -331,15 +332,15 @@ std::optional<LayersReader::Drawing> LayersReader::read_image(TomlReader& layer,
 int LayersReader::plain_symbol(bool wall) {
   SymbolContent content;
   content.wall = wall;
-  for (std::size_t i = 0; i < world_.symbols.size(); ++i) {
-    if (world_.symbols[i].content == content && !world_.symbols[i].is_optional()) return static_cast<int>(i);
+  for (std::size_t i = 0; i < family_map_.symbols.size(); ++i) {
+    if (family_map_.symbols[i].content == content && !family_map_.symbols[i].is_optional()) return static_cast<int>(i);
   }
   Symbol symbol;
-  symbol.glyph = unused_glyph(world_, wall ? "#X" : "._").value_or(wall ? '#' : '.');
+  symbol.glyph = unused_glyph(family_map_, wall ? "#X" : "._").value_or(wall ? '#' : '.');
   symbol.content = content;
-  symbol.place = world_.map_place;
-  world_.symbols.push_back(std::move(symbol));
-  return static_cast<int>(world_.symbols.size() - 1);
+  symbol.place = family_map_.map_place;
+  family_map_.symbols.push_back(std::move(symbol));
+  return static_cast<int>(family_map_.symbols.size() - 1);
 }
 
 std::optional<LayersReader::Drawing> LayersReader::read_occupancy(TomlReader& map) {

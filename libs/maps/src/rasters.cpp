@@ -22,9 +22,13 @@ constexpr std::uint16_t kFar = 0xFFFF;
 // Reads the declarations.
 class RastersReader {
  public:
-  RastersReader(FamilyMap& world, std::size_t pixels_per_cell, NamedFiles& files, TomlReport& report,
+  RastersReader(FamilyMap& family_map, std::size_t pixels_per_cell, NamedFiles& files, TomlReport& report,
                 ModelReport& model_report)
-      : world_{world}, pixels_per_cell_{pixels_per_cell}, files_{files}, report_{report}, model_report_{model_report} {}
+      : family_map_{family_map},
+        pixels_per_cell_{pixels_per_cell},
+        files_{files},
+        report_{report},
+        model_report_{model_report} {}
 
   void read(const TomlArray& list) {
     for (const TomlValue& value : list) {
@@ -50,8 +54,8 @@ class RastersReader {
     reader.finish();
     if (report_.num_errors() > errors_before || model_report_.has_errors()) return;
     if (symbol) add_symbol(*symbol, reader.content().find("symbol")->place(), raster);
-    world_.terrain_names.push_back(raster.name);
-    world_.rasters.push_back(std::move(raster));
+    family_map_.terrain_names.push_back(raster.name);
+    family_map_.rasters.push_back(std::move(raster));
   }
 
   void check_name(const Raster& raster) {
@@ -60,7 +64,7 @@ class RastersReader {
                     "use letters, digits, '_' and '-'");
       return;
     }
-    for (const auto* names : {&world_.terrain_names, &world_.station_names}) {
+    for (const auto* names : {&family_map_.terrain_names, &family_map_.station_names}) {
       if (std::ranges::find(*names, raster.name) == names->end()) continue;
       report_.error("E0214", raster.place, "'" + raster.name + "' is already the name of something else",
                     "leave:" + raster.name + " could mean either");
@@ -118,11 +122,11 @@ class RastersReader {
       const auto name = read_string(element, "a name", report_);
       if (!name) continue;
       const auto is_it = [&](const Symbol& symbol) { return is_called(symbol.content, *name); };
-      const bool known =
-          std::ranges::any_of(world_.symbols, is_it) || std::ranges::find(world_.absent, *name) != world_.absent.end();
+      const bool known = std::ranges::any_of(family_map_.symbols, is_it) ||
+                         std::ranges::find(family_map_.absent, *name) != family_map_.absent.end();
       if (known || *name == "wall" || *name == "goal") {
         raster.of.push_back(*name);
-      } else if (world_.legend_is_sound) {
+      } else if (family_map_.legend_is_sound) {
         report_.error("E0273", element.place(), "nothing in [map.legend] is called '" + *name + "'",
                       suggestion(*name, known_names()));
       }
@@ -130,11 +134,11 @@ class RastersReader {
   }
 
   [[nodiscard]] std::vector<std::string> known_names() const {
-    std::vector<std::string> names = world_.terrain_names;
-    for (const auto* more : {&world_.station_names, &world_.goal_names}) {
+    std::vector<std::string> names = family_map_.terrain_names;
+    for (const auto* more : {&family_map_.station_names, &family_map_.goal_names}) {
       names.insert(names.end(), more->begin(), more->end());
     }
-    for (const Item& item : world_.items) names.push_back(item.name);
+    for (const Item& item : family_map_.items) names.push_back(item.name);
     names.insert(names.end(), {"wall", "goal"});
     return names;
   }
@@ -146,11 +150,12 @@ class RastersReader {
     const auto image = text == nullptr ? std::nullopt : read_pgm(*text, model_report_);
     if (!image) return;
     const GreyImage cells = scaled_down(*image, pixels_per_cell_);
-    if (cells.grey.size() != world_.num_cells() || cells.width != static_cast<std::size_t>(world_.width)) {
-      if (world_.num_cells() == 0) return;
+    if (cells.grey.size() != family_map_.num_cells() || cells.width != static_cast<std::size_t>(family_map_.width)) {
+      if (family_map_.num_cells() == 0) return;
       report_.error("E0265", place,
                     "the image has " + std::to_string(cells.width) + " x " + std::to_string(cells.height) +
-                        " cells, and the map " + std::to_string(world_.width) + " x " + std::to_string(world_.height),
+                        " cells, and the map " + std::to_string(family_map_.width) + " x " +
+                        std::to_string(family_map_.height),
                     "an image has one pixel per cell, or pixels_per_cell in each direction");
       return;
     }
@@ -167,7 +172,7 @@ class RastersReader {
     if (!printable) {
       report_.error("E0204", place,
                     "'" + text + "' cannot be a symbol: it must be one printable ASCII character other than '@'");
-    } else if (std::ranges::any_of(world_.symbols, is_it)) {
+    } else if (std::ranges::any_of(family_map_.symbols, is_it)) {
       report_.error("E0273", place, "symbol '" + text + "' already stands for something else",
                     "choose a character that is not in [map.legend]");
     } else {
@@ -175,12 +180,12 @@ class RastersReader {
       symbol.glyph = text[0];
       symbol.content.terrain = raster.name;
       symbol.place = place;
-      raster.symbol = static_cast<std::int32_t>(world_.symbols.size());
-      world_.symbols.push_back(std::move(symbol));
+      raster.symbol = static_cast<std::int32_t>(family_map_.symbols.size());
+      family_map_.symbols.push_back(std::move(symbol));
     }
   }
 
-  FamilyMap& world_;
+  FamilyMap& family_map_;
   std::size_t pixels_per_cell_;
   NamedFiles& files_;
   TomlReport& report_;
@@ -195,11 +200,11 @@ struct Scene {
 
 class RasterComputer {
  public:
-  RasterComputer(const FamilyMap& world, const Raster& raster) : world_{world}, raster_{raster} {
-    for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
-      note({cell, world.symbol_of[cell], world.group_of[cell]});
+  RasterComputer(const FamilyMap& family_map, const Raster& raster) : family_map_{family_map}, raster_{raster} {
+    for (std::size_t cell = 0; cell < family_map.num_cells(); ++cell) {
+      note({cell, family_map.symbol_of[cell], family_map.group_of[cell]});
     }
-    for (const MapThing& thing : world.painted) note(thing);
+    for (const MapThing& thing : family_map.painted) note(thing);
   }
 
   // The groups on which the values depend.
@@ -214,12 +219,12 @@ class RasterComputer {
 
   [[nodiscard]] std::vector<std::uint16_t> values(std::size_t mdp) const {
     if (raster_.kind == Raster::Kind::kImage) return raster_.values;
-    Scene scene{std::vector<bool>(world_.num_cells(), false), {}};
+    Scene scene{std::vector<bool>(family_map_.num_cells(), false), {}};
     for (const MapThing& wall : walls_) {
-      if (world_.is_there(wall.group, mdp)) scene.is_wall[wall.cell] = true;
+      if (family_map_.is_there(wall.group, mdp)) scene.is_wall[wall.cell] = true;
     }
     for (const MapThing& source : sources_) {
-      if (world_.is_there(source.group, mdp)) scene.sources.push_back(source.cell);
+      if (family_map_.is_there(source.group, mdp)) scene.sources.push_back(source.cell);
     }
     if (raster_.kind == Raster::Kind::kSeen) return seen(scene);
     auto steps = distances(scene);
@@ -235,25 +240,25 @@ class RasterComputer {
 
  private:
   void note(const MapThing& thing) {
-    const SymbolContent& content = world_.symbols[thing.symbol].content;
+    const SymbolContent& content = family_map_.symbols[thing.symbol].content;
     const bool is_source =
         std::ranges::any_of(raster_.of, [&](const std::string& name) { return is_called(content, name); });
     if (content.wall) walls_.push_back(thing);
     if (is_source) sources_.push_back(thing);
     if ((content.wall || is_source) && thing.group >= 0)
-      groups_ |= world_.bit_of(static_cast<std::size_t>(thing.group));
+      groups_ |= family_map_.bit_of(static_cast<std::size_t>(thing.group));
   }
 
   // Steps around walls to the nearest source; sources may be walls themselves.
   [[nodiscard]] std::vector<std::uint16_t> distances(const Scene& scene) const {
-    std::vector<std::uint16_t> steps(world_.num_cells(), kFar);
+    std::vector<std::uint16_t> steps(family_map_.num_cells(), kFar);
     std::vector<std::size_t> queue;
     for (const std::size_t source : scene.sources) {
       if (steps[source] == 0) continue;
       steps[source] = 0;
       queue.push_back(source);
     }
-    const auto width = static_cast<std::size_t>(world_.width);
+    const auto width = static_cast<std::size_t>(family_map_.width);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const std::size_t at = queue[i];
       if (steps[at] >= raster_.reach) continue;
@@ -271,13 +276,13 @@ class RasterComputer {
   }
 
   [[nodiscard]] std::vector<std::uint16_t> seen(const Scene& scene) const {
-    std::vector<std::uint16_t> result(world_.num_cells(), 0);
+    std::vector<std::uint16_t> result(family_map_.num_cells(), 0);
     const auto reach = static_cast<int>(raster_.reach);
     for (const std::size_t source : scene.sources) {
-      const int x = static_cast<int>(source) % world_.width;
-      const int y = static_cast<int>(source) / world_.width;
-      for (int to_y = std::max(0, y - reach); to_y <= std::min(world_.height - 1, y + reach); ++to_y) {
-        for (int to_x = std::max(0, x - reach); to_x <= std::min(world_.width - 1, x + reach); ++to_x) {
+      const int x = static_cast<int>(source) % family_map_.width;
+      const int y = static_cast<int>(source) / family_map_.width;
+      for (int to_y = std::max(0, y - reach); to_y <= std::min(family_map_.height - 1, y + reach); ++to_y) {
+        for (int to_x = std::max(0, x - reach); to_x <= std::min(family_map_.width - 1, x + reach); ++to_x) {
           const int dx = to_x - x;
           const int dy = to_y - y;
           if (dx * dx + dy * dy > reach * reach || !is_clear(scene, {x, y}, {to_x, to_y})) continue;
@@ -290,7 +295,7 @@ class RasterComputer {
   }
 
   [[nodiscard]] std::size_t cell_at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.width) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(family_map_.width) + static_cast<std::size_t>(x);
   }
 
   // Whether no cell between the two is a wall: the cells of Bresenham's line.
@@ -316,7 +321,7 @@ class RasterComputer {
     return true;
   }
 
-  const FamilyMap& world_;
+  const FamilyMap& family_map_;
   const Raster& raster_;
   std::vector<MapThing> walls_;
   std::vector<MapThing> sources_;
@@ -325,40 +330,42 @@ class RasterComputer {
 
 }  // namespace
 
-void read_rasters(TomlReader& map, FamilyMap& world, NamedFiles& files, TomlReport& report, ModelReport& model_report) {
+void read_rasters(TomlReader& map, FamilyMap& family_map, NamedFiles& files, TomlReport& report,
+                  ModelReport& model_report) {
   const TomlArray* list = map.array("raster", Presence::kOptional);
   if (list == nullptr) return;
   const TomlValue* pixels = map.content().find("pixels_per_cell");
   const bool has_pixels = pixels != nullptr && pixels->integer() != nullptr && *pixels->integer() > 0;
   const auto pixels_per_cell = has_pixels ? static_cast<std::size_t>(*pixels->integer()) : std::size_t{1};
-  RastersReader{world, pixels_per_cell, files, report, model_report}.read(*list);
+  RastersReader{family_map, pixels_per_cell, files, report, model_report}.read(*list);
 }
 
-void compute_rasters(FamilyMap& world, TomlReport& report) {
-  const std::size_t num_mdps = world.num_mdps();
+void compute_rasters(FamilyMap& family_map, TomlReport& report) {
+  const std::size_t num_mdps = family_map.num_mdps();
   std::size_t sight_steps = 0;
   const auto report_size = [&](const Raster& raster) {
     report.error("E0219", raster.place, "the rasters of all worlds are too large to compute",
                  "use a smaller map, a smaller 'within', or [family] worlds = NUMBER");
   };
-  for (const Raster& raster : world.rasters) {
-    const RasterComputer computer{world, raster};
+  for (const Raster& raster : family_map.rasters) {
+    const RasterComputer computer{family_map, raster};
     std::map<std::uint64_t, std::uint32_t> known;  // by the relevant groups that are on
     bool is_zero = true;
     for (std::size_t mdp = 0; mdp < num_mdps; ++mdp) {
-      const std::uint64_t key = world.variant(mdp) & computer.relevant_groups();
-      const auto [at, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(world.raster_grids.size()));
-      world.raster_grid_of.push_back(at->second);
+      const std::uint64_t key = family_map.mask(mdp) & computer.relevant_groups();
+      const auto [at, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(family_map.raster_grids.size()));
+      family_map.raster_grid_of.push_back(at->second);
       if (!is_new) continue;
       sight_steps += computer.most_sight_steps();
-      if ((world.raster_grids.size() + 1) * world.num_cells() > kMostValues || sight_steps > kMostSightSteps) {
+      if ((family_map.raster_grids.size() + 1) * family_map.num_cells() > kMostValues ||
+          sight_steps > kMostSightSteps) {
         return report_size(raster);
       }
-      world.raster_grids.push_back(computer.values(mdp));
-      is_zero = is_zero && std::ranges::all_of(world.raster_grids.back(), [](std::uint16_t v) { return v == 0; });
+      family_map.raster_grids.push_back(computer.values(mdp));
+      is_zero = is_zero && std::ranges::all_of(family_map.raster_grids.back(), [](std::uint16_t v) { return v == 0; });
     }
     const bool is_about_absent_things = !raster.of.empty() && std::ranges::all_of(raster.of, [&](const auto& name) {
-      return std::ranges::find(world.absent, name) != world.absent.end();
+      return std::ranges::find(family_map.absent, name) != family_map.absent.end();
     });
     if (is_zero && !is_about_absent_things) {
       report.warning("W0206", raster.place, "raster '" + raster.name + "' is 0 everywhere",

@@ -17,7 +17,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 // Reads the legend: what each symbol stands for.
 class LegendReader {
  public:
-  LegendReader(FamilyMap& world, TomlReport& report) : world_{world}, report_{report} {}
+  LegendReader(FamilyMap& family_map, TomlReport& report) : family_map_{family_map}, report_{report} {}
 
   void read(const TomlTable& legend) {
     for (const TomlEntry& entry : legend.entries()) {
@@ -34,7 +34,7 @@ class LegendReader {
                       std::string{"symbol '"} + symbol.glyph + "' must be a string or a table, not " +
                           std::string{entry.value.kind_name()});
       }
-      world_.symbols.push_back(std::move(symbol));
+      family_map_.symbols.push_back(std::move(symbol));
     }
     collect_names();
   }
@@ -80,7 +80,7 @@ class LegendReader {
       content.goal = true;
       content.goal_name = word;
     }
-    if (const auto [set, word] = flag_or_name(reader, "optional", world_.is_picture); set) {
+    if (const auto [set, word] = flag_or_name(reader, "optional", family_map_.is_picture); set) {
       symbol.toggles_each_cell = word.empty();
       symbol.toggle = word;
     }
@@ -134,49 +134,49 @@ class LegendReader {
   }
 
   void collect_names() {
-    for (const Symbol& symbol : world_.symbols) {
+    for (const Symbol& symbol : family_map_.symbols) {
       const SymbolContent& content = symbol.content;
-      add_once(world_.terrain_names, content.terrain);
-      add_once(world_.station_names, content.station);
-      add_once(world_.goal_names, content.goal_name);
+      add_once(family_map_.terrain_names, content.terrain);
+      add_once(family_map_.station_names, content.station);
+      add_once(family_map_.goal_names, content.goal_name);
       if (content.item.empty()) continue;
-      const bool known = std::any_of(world_.items.begin(), world_.items.end(),
+      const bool known = std::any_of(family_map_.items.begin(), family_map_.items.end(),
                                      [&](const Item& item) { return item.name == content.item; });
       if (known) {
         report_.error("E0211", symbol.place, "item '" + content.item + "' has two symbols; an item lies on one cell");
       } else {
-        world_.items.push_back({content.item, {}, {}, content.carried});
+        family_map_.items.push_back({content.item, {}, {}, content.carried});
       }
     }
-    for (const Symbol& symbol : world_.symbols) check_references(symbol);
+    for (const Symbol& symbol : family_map_.symbols) check_references(symbol);
   }
 
   void check_references(const Symbol& symbol) {
     const SymbolContent& content = symbol.content;
-    const auto& stations = world_.station_names;
+    const auto& stations = family_map_.station_names;
     if (!content.terrain.empty() && std::find(stations.begin(), stations.end(), content.terrain) != stations.end()) {
       report_.error("E0214", symbol.place, "'" + content.terrain + "' is the name of a terrain and of a station",
                     "leave:" + content.terrain + " could mean either");
     }
     std::vector<std::string> items;
-    for (const Item& item : world_.items) items.push_back(item.name);
+    for (const Item& item : family_map_.items) items.push_back(item.name);
     const auto is_in = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), content.destination) != names.end();
     };
-    if (!content.destination.empty() && !is_in(items) && !is_in(world_.absent)) {
+    if (!content.destination.empty() && !is_in(items) && !is_in(family_map_.absent)) {
       report_.error("E0212", symbol.place, "destination of an unknown item '" + content.destination + "'",
                     suggestion(content.destination, items));
     }
   }
 
-  FamilyMap& world_;
+  FamilyMap& family_map_;
   TomlReport& report_;
 };
 
 }  // namespace
 
-void read_legend(const TomlTable& legend, FamilyMap& world, TomlReport& report) {
-  LegendReader{world, report}.read(legend);
+void read_legend(const TomlTable& legend, FamilyMap& family_map, TomlReport& report) {
+  LegendReader{family_map, report}.read(legend);
 }
 
 }  // namespace kith::detail

@@ -17,17 +17,17 @@ constexpr std::int64_t kMostStarts = 1'000'000;
 constexpr int kMostTries = 32;  // to draw a world that does not exist yet
 
 // The groups of each kind of optional thing, as a mask; kinds in the order of their first group.
-std::vector<std::uint64_t> masks_of_kinds(const FamilyMap& world) {
+std::vector<std::uint64_t> masks_of_kinds(const FamilyMap& family_map) {
   std::vector<std::string> names;
   std::vector<std::uint64_t> masks;
-  for (std::size_t group = 0; group < world.groups.size(); ++group) {
-    const std::string name = symbol_name(world.symbols[world.groups[group].things.front().symbol]);
+  for (std::size_t group = 0; group < family_map.groups.size(); ++group) {
+    const std::string name = symbol_name(family_map.symbols[family_map.groups[group].things.front().symbol]);
     const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     if (at == names.size()) {
       names.push_back(name);
       masks.push_back(0);
     }
-    masks[at] |= world.bit_of(group);
+    masks[at] |= family_map.bit_of(group);
   }
   return masks;
 }
@@ -114,26 +114,27 @@ Thinning read_thinning(TomlReader& file) {
 namespace {
 
 // "NAME" or "NAME(3,2)": the groups of that name, or of things of that name; or the one with that cell.
-std::optional<std::uint64_t> groups_called(const FamilyMap& world, const std::string& text) {
+std::optional<std::uint64_t> groups_called(const FamilyMap& family_map, const std::string& text) {
   const std::size_t open = text.find('(');
   const std::string name = text.substr(0, open);
   const std::string cell = open == std::string::npos ? "" : text.substr(open);
   std::uint64_t mask = 0;
-  for (std::size_t group = 0; group < world.groups.size(); ++group) {
+  for (std::size_t group = 0; group < family_map.groups.size(); ++group) {
     const auto fits = [&](const MapThing& thing) {
-      const bool named = world.groups[group].name == name || is_called(world.symbols[thing.symbol].content, name);
-      return named && (cell.empty() || cell_text(world, thing.cell) == cell);
+      const bool named =
+          family_map.groups[group].name == name || is_called(family_map.symbols[thing.symbol].content, name);
+      return named && (cell.empty() || cell_text(family_map, thing.cell) == cell);
     };
-    if (std::ranges::any_of(world.groups[group].things, fits)) mask |= world.bit_of(group);
+    if (std::ranges::any_of(family_map.groups[group].things, fits)) mask |= family_map.bit_of(group);
   }
   return mask == 0 ? std::nullopt : std::optional{mask};
 }
 
-std::vector<std::string> names_of_groups(const FamilyMap& world) {
+std::vector<std::string> names_of_groups(const FamilyMap& family_map) {
   std::vector<std::string> names;
-  for (const CellGroup& group : world.groups) {
+  for (const CellGroup& group : family_map.groups) {
     std::string name = group.name;
-    if (name.empty()) name = symbol_name(world.symbols[group.things.front().symbol]);
+    if (name.empty()) name = symbol_name(family_map.symbols[group.things.front().symbol]);
     if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   }
   return names;
@@ -141,11 +142,11 @@ std::vector<std::string> names_of_groups(const FamilyMap& world) {
 
 }  // namespace
 
-void list_worlds(FamilyMap& world, TomlReport& report) {
-  if (world.thinning.listed == nullptr) return;
-  const TomlArray& list = *world.thinning.listed;
+void list_worlds(FamilyMap& family_map, TomlReport& report) {
+  if (family_map.thinning.listed == nullptr) return;
+  const TomlArray& list = *family_map.thinning.listed;
   if (list.empty() || list.size() > static_cast<std::size_t>(kMostWorlds)) {
-    report.error("E0271", world.thinning.listed_place, "a family has 1 to 65536 worlds",
+    report.error("E0271", family_map.thinning.listed_place, "a family has 1 to 65536 worlds",
                  "list each as [[family.world]] with present = [...]");
     return;
   }
@@ -154,18 +155,18 @@ void list_worlds(FamilyMap& world, TomlReport& report) {
   for (const TomlValue& value : list) {
     if (read_table(value, "a world", report) == nullptr) continue;
     TomlReader reader{*value.table(), value.place(), "[[family.world]]", report};
-    world.variant_names.push_back(reader.string("name", Presence::kOptional).value_or(""));
+    family_map.world_names.push_back(reader.string("name", Presence::kOptional).value_or(""));
     std::uint64_t mask = 0;
     if (const TomlArray* present = reader.array("present", Presence::kRequired)) {
       for (const TomlValue& element : *present) {
         const auto name = read_string(element, "every element of 'present'", report);
         if (!name) continue;
-        const auto groups = groups_called(world, *name);
+        const auto groups = groups_called(family_map, *name);
         mask |= groups.value_or(0);
         if (groups) continue;
         report.error("E0271", element.place(), "nothing optional is called '" + *name + "'",
-                     world.groups.empty() ? "mark something on the map or a layer as optional"
-                                          : suggestion(*name, names_of_groups(world)));
+                     family_map.groups.empty() ? "mark something on the map or a layer as optional"
+                                               : suggestion(*name, names_of_groups(family_map)));
       }
       const auto [at, is_new] = line_of.try_emplace(mask, value.place().line);
       if (!is_new) {
@@ -175,28 +176,28 @@ void list_worlds(FamilyMap& world, TomlReport& report) {
       }
     }
     reader.finish();
-    world.variants.push_back(mask);
+    family_map.masks.push_back(mask);
   }
 }
 
-std::vector<std::uint64_t> choose_variants(const FamilyMap& world, std::size_t num_worlds, std::uint64_t seed) {
-  const std::size_t num_groups = world.groups.size();
+std::vector<std::uint64_t> choose_masks(const FamilyMap& family_map, std::size_t num_worlds, std::uint64_t seed) {
+  const std::size_t num_groups = family_map.groups.size();
   const std::uint64_t all = num_groups == 0 ? 0 : std::numeric_limits<std::uint64_t>::max() >> (64 - num_groups);
-  std::vector<std::uint64_t> variants;
+  std::vector<std::uint64_t> masks;
   std::unordered_set<std::uint64_t> taken;
   const auto add = [&](std::uint64_t mask) {
-    if (variants.size() < num_worlds && taken.insert(mask).second) variants.push_back(mask);
+    if (masks.size() < num_worlds && taken.insert(mask).second) masks.push_back(mask);
   };
   add(0);
   add(all);
-  const auto kinds = masks_of_kinds(world);
+  const auto kinds = masks_of_kinds(family_map);
   for (const std::uint64_t kind : kinds) add(kind);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     for (std::size_t j = i + 1; j < kinds.size(); ++j) add(kinds[i] | kinds[j]);
   }
   const RandomStream draws{seed};
   std::uint64_t n = 0;
-  while (variants.size() < num_worlds) {
+  while (masks.size() < num_worlds) {
     std::uint64_t mask = random_subset(num_groups, draws.split(n++));
     for (int tries = 1; tries < kMostTries && taken.contains(mask); ++tries) {
       mask = random_subset(num_groups, draws.split(n++));
@@ -206,8 +207,8 @@ std::vector<std::uint64_t> choose_variants(const FamilyMap& world, std::size_t n
   }
 
   // As in a whole family, the last world has everything.
-  if (variants.size() > 1) std::rotate(variants.begin() + 1, variants.begin() + 2, variants.end());
-  return variants;
+  if (masks.size() > 1) std::rotate(masks.begin() + 1, masks.begin() + 2, masks.end());
+  return masks;
 }
 
 std::vector<StateIndex> spread_states(const Mdp& mdp, std::size_t most) {

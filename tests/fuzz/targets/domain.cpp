@@ -25,7 +25,8 @@ void check_states(const Domain& domain, MdpIndex m) {
     }
   }
   fuzzing::require(domain.initial_state(m).value() < mdp.num_states(), "a robot starts in a state");
-  fuzzing::require(!domain.describe_variant(m).empty() || domain.variant(m).empty(), "variants have a description");
+  fuzzing::require(!domain.describe_world(m).empty() || domain.present_things(m).empty(),
+                   "variants have a description");
 }
 
 // What the text may name.

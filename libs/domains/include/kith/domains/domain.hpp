@@ -68,7 +68,7 @@ struct OptionalGroup {
 /// model of one or several MDPs.
 ///
 /// In gridworlds MDP m's things are the bits of m, the first optional group in the most
-/// significant bit; where the file builds only some of the family, variant()
+/// significant bit; where the file builds only some of the family, present_things()
 /// knows them. Immutable and self-contained: a value.
 class Domain {
  public:
@@ -114,15 +114,15 @@ class Domain {
   /// The state in which a robot first enters MDP m (the map's start, or what the model calls initial).
   [[nodiscard]] StateIndex initial_state(MdpIndex m) const;
   /// Which optional groups are there, in legend order and within a symbol in reading order. Empty without a map.
-  [[nodiscard]] std::vector<bool> variant(MdpIndex m) const;
+  [[nodiscard]] std::vector<bool> present_things(MdpIndex m) const;
   /// The optional things that MDP m has, in words: "rubble@{(2,1),(2,2)} charger@{}". Here cells are
   /// (column, row) from the top left, as in all messages about domain files. Without a map the name of the MDP.
-  [[nodiscard]] std::string describe_variant(MdpIndex m) const;
+  [[nodiscard]] std::string describe_world(MdpIndex m) const;
   /// What people call MDP m; empty if the file gives it no name.
   [[nodiscard]] std::string world_name(MdpIndex m) const;
   /// The MDP of this number or name, in any case; nothing if there is none.
   [[nodiscard]] std::optional<MdpIndex> find_world(std::string_view number_or_name) const;
-  /// The optional groups in the order of variant().
+  /// The optional groups in the order of present_things().
   [[nodiscard]] std::vector<OptionalGroup> optional_groups() const;
 
   /// A state in words, also a terminal one: "robot at (2,1), carrying the parcel". Cells are (column, row) from the top

@@ -91,7 +91,7 @@ class GridMap {
   [[nodiscard]] std::vector<std::string> draw_bare(MdpIndex m, StateIndex s) const;
 
  private:
-  [[nodiscard]] const detail::FamilyMap& world() const noexcept;
+  [[nodiscard]] const detail::FamilyMap& family_map() const noexcept;
   void check_mdp(MdpIndex m, const char* function) const;
   [[nodiscard]] GridState drawn_state(MdpIndex m, StateIndex s) const;
   [[nodiscard]] std::optional<StateIndex> find_drawn(MdpIndex m, const GridState& state) const;

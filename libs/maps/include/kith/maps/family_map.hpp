@@ -45,7 +45,7 @@ struct MapThing {
   std::int32_t group = -1;  // index into FamilyMap::groups; -1: always there
 };
 
-// Things that are there or not together: one bit of a variant.
+// Things that are there or not together: one bit of a world.
 struct CellGroup {
   std::string name;  // optional = "NAME"; empty: a thing by itself
   std::vector<MapThing> things;
@@ -113,10 +113,10 @@ struct FamilyMap {
   std::vector<std::vector<std::uint16_t>> raster_grids;  // shape [?, cells]
   std::vector<std::uint32_t> raster_grid_of;             // shape [rasters, MDPs], indices into raster_grids
   Thinning thinning;
-  std::vector<std::uint64_t> variants;     // of a thinned family: the groups that are on, per MDP; else empty
-  std::vector<std::string> variant_names;  // of a family whose worlds are listed, per MDP; else empty
-  TomlPlace map_place;                     // of [map]
-  TomlPlace source_place;                  // of what the lowest layer is read from
+  std::vector<std::uint64_t> masks;      // of a thinned family: the groups that are on, per MDP; else empty
+  std::vector<std::string> world_names;  // of a family whose worlds are listed, per MDP; else empty
+  TomlPlace map_place;                   // of [map]
+  TomlPlace source_place;                // of what the lowest layer is read from
   TomlPlace start_place;
   TomlPlace goal_place;                  // of a goal or destination
   std::vector<TomlPlace> row_places;     // of the strings in rows; empty: read from an image
@@ -137,14 +137,12 @@ struct FamilyMap {
            static_cast<std::size_t>(cell.x - 1);
   }
   // Without thinning the groups that are on are the bits of the MDP's index. @pre at most 16 groups without thinning.
-  [[nodiscard]] std::size_t num_mdps() const {
-    return variants.empty() ? std::size_t{1} << groups.size() : variants.size();
-  }
+  [[nodiscard]] std::size_t num_mdps() const { return masks.empty() ? std::size_t{1} << groups.size() : masks.size(); }
   [[nodiscard]] std::uint64_t bit_of(std::size_t group) const {
     return std::uint64_t{1} << (groups.size() - 1 - group);
   }
-  [[nodiscard]] std::uint64_t variant(std::size_t mdp) const { return variants.empty() ? mdp : variants[mdp]; }
-  [[nodiscard]] bool is_on(std::size_t group, std::size_t mdp) const { return (variant(mdp) & bit_of(group)) != 0; }
+  [[nodiscard]] std::uint64_t mask(std::size_t mdp) const { return masks.empty() ? mdp : masks[mdp]; }
+  [[nodiscard]] bool is_on(std::size_t group, std::size_t mdp) const { return (mask(mdp) & bit_of(group)) != 0; }
   [[nodiscard]] bool is_there(std::int32_t group, std::size_t mdp) const {
     return group < 0 || is_on(static_cast<std::size_t>(group), mdp);
   }
@@ -166,9 +164,9 @@ struct FamilyMap {
 };
 
 // "(3,1)": column and row from the top left, as in all messages.
-[[nodiscard]] std::string cell_text(const FamilyMap& world, std::size_t cell);
+[[nodiscard]] std::string cell_text(const FamilyMap& family_map, std::size_t cell);
 // The optional things of MDP `mdp`: "rubble@{(2,1),(2,2)} charger@{}".
-[[nodiscard]] std::string variant_text(const FamilyMap& world, std::size_t mdp);
+[[nodiscard]] std::string world_text(const FamilyMap& family_map, std::size_t mdp);
 // What people call the thing a symbol stands for: its terrain, station, item, ...
 [[nodiscard]] std::string symbol_name(const Symbol& symbol);
 
@@ -184,16 +182,16 @@ struct FamilyMap {
 [[nodiscard]] bool is_called(const SymbolContent& content, const std::string& name);
 
 // Reads the symbols of [map.legend] and the names that they declare.
-void read_legend(const TomlTable& legend, FamilyMap& world, TomlReport& report);
+void read_legend(const TomlTable& legend, FamilyMap& family_map, TomlReport& report);
 
 // Reads [map], its layers and rasters, and [family]. Reports everything that is wrong.
 [[nodiscard]] FamilyMap read_world(TomlReader& file, NamedFiles& files, ModelReport& report);
 
 // Reads [map] as the picture of an explicit model: it needs no start and no end, and what is optional is there in the
-// MDP of that name. The variants are not known yet.
+// MDP of that name. The worlds are not known yet.
 [[nodiscard]] FamilyMap read_picture(TomlReader& file, NamedFiles& files, ModelReport& report);
 
 // Where cell `cell` of the lowest layer stands in the file.
-[[nodiscard]] TomlPlace place_of_cell(const FamilyMap& world, std::size_t cell);
+[[nodiscard]] TomlPlace place_of_cell(const FamilyMap& family_map, std::size_t cell);
 
 }  // namespace kith::detail

@@ -22,8 +22,8 @@ struct PaintedThing {
 // Reads what [map] and [[map.layer]] draw: text, an occupancy grid or an image.
 class LayersReader {
  public:
-  LayersReader(FamilyMap& world, TomlReport& report, NamedFiles& files, ModelReport& model_report)
-      : world_{world}, report_{report}, files_{files}, model_report_{model_report} {}
+  LayersReader(FamilyMap& family_map, TomlReport& report, NamedFiles& files, ModelReport& model_report)
+      : family_map_{family_map}, report_{report}, files_{files}, model_report_{model_report} {}
 
   // The lowest layer. False after reporting what is wrong, if nothing else can be said about the map.
   [[nodiscard]] bool read_base(TomlReader& map);
@@ -57,7 +57,7 @@ class LayersReader {
   [[nodiscard]] int symbol_with(char glyph) const;
   [[nodiscard]] int plain_symbol(bool wall);
 
-  FamilyMap& world_;
+  FamilyMap& family_map_;
   TomlReport& report_;
   NamedFiles& files_;
   ModelReport& model_report_;
