@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kith/belief/likelihood.hpp"
+#include "kith/belief/likelihood_product.hpp"
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/geometry/eigen.hpp"
@@ -150,23 +151,11 @@ class ParticleBelief {
   void resample(double sum, RandomStream& random);
   [[nodiscard]] double kernel_angle(double sum) const;
   void draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random);
-  void move(double angle, RandomStream& random);
   void observe_in_product(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
                           std::span<double> factors, const RandomStream& random);
   [[nodiscard]] double affordable_share(std::span<const double> factors, double most) const;
-  void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, double share);
-  [[nodiscard]] bool keeps_product() const noexcept;
-  void lose_product();
   void take_logs_of_weights();
   void move_in_product(bool is_resampled, RandomStream& random);
-
-  // All observations of one half-space; see detail::FallingDensity.
-  struct Observed {
-    HalfSpace half_space;
-    double far = 0.0;
-    double slope = 0.0;
-    friend bool operator==(const Observed&, const Observed&) = default;
-  };
 
   FilterOptions options_;
   std::size_t dimension_;
@@ -176,10 +165,9 @@ class ParticleBelief {
   std::vector<double> weights_;      // exp(log_weights_) / their sum
   double log_sum_ = 0.0;             // log of that sum
   std::size_t num_resamplings_ = 0;
-  double least_support_;            // see least_support()
-  std::vector<Observed> observed_;  // sorted; above three dimensions, as long as is_product_
-  bool is_product_ = true;          // of the prior and what was observed
-  std::size_t num_still_ = 0;       // observations since the points moved in it
+  double least_support_;               // see least_support()
+  detail::LikelihoodProduct product_;  // kept above three dimensions
+  std::size_t num_still_ = 0;          // observations since the points moved in it
 };
 
 /// Systematic resampling (Kitagawa 1996): counts of each index among n strata of
