@@ -55,7 +55,7 @@ void observe(Belief& self, const py::object& half_spaces, double ability, const 
 
 void observe_any(Belief& self, const py::sequence& alternatives, double ability, const std::string& form) {
   std::vector<std::vector<HalfSpace>> lists;
-  for (const auto& one : alternatives) lists.push_back(half_spaces_of(one, self.value->dimension()));
+  for (const auto& alternative : alternatives) lists.push_back(half_spaces_of(alternative, self.value->dimension()));
   const auto likelihood = likelihood_of(self, ability, form);
   update(self, [&](ParticleBelief& next, const RandomStream& random) { next.observe_any(lists, likelihood, random); });
 }

@@ -26,8 +26,8 @@ DomainPointer domain_from(std::string text, const std::string& name, const Domai
 }
 
 DomainPointer load(const std::string& name) {
-  for (const auto& one : built_in_domains()) {
-    if (one.name == name) return domain_from(std::string{one.text}, name, {{}, one.files});
+  for (const auto& domain : built_in_domains()) {
+    if (domain.name == name) return domain_from(std::string{domain.text}, name, {{}, domain.files});
   }
   std::error_code failure;
   if (!std::filesystem::is_regular_file(name, failure)) (void)load_domain(name);  // says what is wrong
@@ -224,7 +224,7 @@ void bind_domain(py::module_& module) {
       .def_static("built_in",
                   [] {
                     py::list names;
-                    for (const auto& one : built_in_domains()) names.append(one.name);
+                    for (const auto& domain : built_in_domains()) names.append(domain.name);
                     return names;
                   })
       .def_property_readonly("id", [](const LoadedDomain& self) { return self.domain().id(); })

@@ -69,8 +69,8 @@ py::object to_python(const Diagnostic& diagnostic) {
 
 void raise(const Error& error) {
   py::list diagnostics;
-  for (const auto& one : error.diagnostics()) {
-    if (one.severity == Severity::kError) diagnostics.append(to_python(one));
+  for (const auto& diagnostic : error.diagnostics()) {
+    if (diagnostic.severity == Severity::kError) diagnostics.append(to_python(diagnostic));
   }
   std::string text = error.what();
   if (const std::string remedy = remedy_text(error.remedy()); !remedy.empty()) text += "\n   = help: " + remedy;
@@ -109,8 +109,8 @@ void warn(const std::string& text) {
 }
 
 void warn(const std::vector<Diagnostic>& diagnostics) {
-  for (const auto& one : diagnostics) {
-    if (one.severity == Severity::kWarning) warn(to_text(one));
+  for (const auto& diagnostic : diagnostics) {
+    if (diagnostic.severity == Severity::kWarning) warn(to_text(diagnostic));
   }
 }
 

@@ -98,7 +98,7 @@ void bind_geometry(py::module_& module) {
           "generators",
           [](const Cone& self) {
             py::list list;
-            for (const auto& one : self.generators()) list.append(to_tuple(one));
+            for (const auto& generator : self.generators()) list.append(to_tuple(generator));
             return list;
           },
           "Whole vectors whose non-negative combinations are the cone.")

@@ -61,8 +61,9 @@ class OwnLearner final : public Learner {
       const py::object given = object.attr("answer")(starts, period);
       Response response;
       if (is_list_of_answers(given)) {
-        for (const auto& one : given)
-          response.answers.push_back(one.is_none() ? std::nullopt : std::optional{counts_of(atlas.domain(), one)});
+        for (const auto& answer : given)
+          response.answers.push_back(answer.is_none() ? std::nullopt
+                                                      : std::optional{counts_of(atlas.domain(), answer)});
         if (response.answers.size() != tests.size())
           throw py::value_error{"answer() gave " + std::to_string(response.answers.size()) + " answers to " +
                                 std::to_string(tests.size()) + " tests"};

@@ -273,7 +273,7 @@ void bind_own_strategies(py::module_& module) {
           "gains",
           [](const OwnUnit& self) {
             std::vector<double> gains;
-            for (const auto& one : self.unit.demonstrations) gains.push_back(one.gain);
+            for (const auto& shown : self.unit.demonstrations) gains.push_back(shown.gain);
             return gains;
           },
           "Of each demonstration: area of what is left before / after, >= 1.")

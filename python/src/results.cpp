@@ -188,7 +188,7 @@ std::string audit(const std::string& folder, std::size_t team, double forgetting
                                     [&](std::size_t i) { people[i] = judged(atlas, study, records[i], options); });
     if (!all) throw Stopped{};
     AuditReport result{.source = folder, .people = {}, .options = options};
-    for (auto& one : people) result.people.insert(result.people.end(), one.begin(), one.end());
+    for (auto& person : people) result.people.insert(result.people.end(), person.begin(), person.end());
     return audit_json(atlas, result, cli::program_name()).dump();
   });
 }

@@ -188,8 +188,8 @@ bool propose(OwnSession& self, const py::object& demonstrations, const std::shar
 void answer(OwnSession& self, std::size_t member, const py::iterable& answers) {
   self.require_member(member);
   std::vector<Answer> list;
-  for (const auto& one : answers) {
-    list.push_back(one.is_none() ? Answer{} : Answer{counts_of(self.domain()->domain(), one)});
+  for (const auto& answer : answers) {
+    list.push_back(answer.is_none() ? Answer{} : Answer{counts_of(self.domain()->domain(), answer)});
   }
   self.use([&](Session& session) { session.answer(member, std::move(list)); });
 }
@@ -223,8 +223,8 @@ py::list answers(People& self, OwnSession& session, std::size_t member) {
     });
   });
   py::list list;
-  for (const auto& one : response.answers)
-    list.append(one ? py::object{counts_to_tuple(session.domain()->domain(), *one)} : py::none());
+  for (const auto& answer : response.answers)
+    list.append(answer ? py::object{counts_to_tuple(session.domain()->domain(), *answer)} : py::none());
   return list;
 }
 
@@ -379,7 +379,7 @@ void bind_session(py::module_& module) {
                              [](const OwnSession& self) {
                                return self.look([](const Session& taught) {
                                  py::list list;
-                                 for (const auto& one : taught.events()) list.append(std::string{name_of(one)});
+                                 for (const auto& event : taught.events()) list.append(std::string{name_of(event)});
                                  return list;
                                });
                              })

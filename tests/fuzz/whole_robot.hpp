@@ -39,10 +39,11 @@ class WholeRobot {
   }
 
   void find() const {
-    for (const auto& one : isolated_constraints(atlas_)) {
+    for (const auto& isolated_constraint : isolated_constraints(atlas_)) {
       for (const auto purpose : {Purpose::kTeach, Purpose::kTest}) {
-        const auto found = simplest_isolating(atlas_, one.constraint, purpose);
-        require(found.has_value() == ((purpose == Purpose::kTeach ? one.teaching : one.testing) > 0),
+        const auto found = simplest_isolating(atlas_, isolated_constraint.constraint, purpose);
+        require(found.has_value() ==
+                    ((purpose == Purpose::kTeach ? isolated_constraint.teaching : isolated_constraint.testing) > 0),
                 "what is counted is found");
       }
     }

@@ -59,8 +59,8 @@ Facts facts_of(const Atlas& atlas, const Counted& counted) {
 
 std::vector<IsolationFacts> isolations_of(const Atlas& atlas, const Counted& counted) {
   std::vector<IsolationFacts> all;
-  for (const auto& one : isolated_constraints(atlas)) {
-    all.push_back({carried_over(one.constraint.normal(), counted), one.teaching, one.testing});
+  for (const auto& isolated : isolated_constraints(atlas)) {
+    all.push_back({carried_over(isolated.constraint.normal(), counted), isolated.teaching, isolated.testing});
   }
   std::sort(all.begin(), all.end());
   return all;

@@ -71,12 +71,13 @@ void expect_honest(const Atlas& atlas, const StudySpec& spec, const TeamRecord& 
     expect_within(0.0, f.periods_low, f.periods_high, "forecast_periods");
     expect_within(0.0, f.minutes_low, f.minutes_high, "forecast_minutes");
   }
-  for (const auto& one : team.estimates) {
-    expect_probability(one.p_proficient, "p_proficient");
-    expect_probability(one.p_knew, "p_knew");
-    expect_probability(one.p_right, "p_right");
-    expect_probability(one.right, "right");
-    if (one.ability_mean) expect_within(*one.ability_low, *one.ability_mean, *one.ability_high, "ability_mean");
+  for (const auto& estimate : team.estimates) {
+    expect_probability(estimate.p_proficient, "p_proficient");
+    expect_probability(estimate.p_knew, "p_knew");
+    expect_probability(estimate.p_right, "p_right");
+    expect_probability(estimate.right, "right");
+    if (estimate.ability_mean)
+      expect_within(*estimate.ability_low, *estimate.ability_mean, *estimate.ability_high, "ability_mean");
   }
   for (const auto& exam : team.exams) {
     expect_probability(exam.share_right, "share_right");
@@ -86,11 +87,11 @@ void expect_honest(const Atlas& atlas, const StudySpec& spec, const TeamRecord& 
   // What was shown: per session (a member of the baseline is one) and period, and per component.
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> shown;
   std::set<std::size_t> components;
-  for (const auto& one : team.demonstration_records) {
-    const auto demo = atlas.index({MdpIndex{one.mdp}, StateIndex{one.start}});
+  for (const auto& demonstration_record : team.demonstration_records) {
+    const auto demo = atlas.index({MdpIndex{demonstration_record.mdp}, StateIndex{demonstration_record.start}});
     EXPECT_FALSE(atlas.trajectory(demo).actions.empty()) << "a demonstration of nothing";
-    components.insert(one.component);
-    ++shown[{one.member, one.period}];
+    components.insert(demonstration_record.component);
+    ++shown[{demonstration_record.member, demonstration_record.period}];
   }
   std::size_t demonstrations = 0, tests = 0;
   for (const auto& period : team.period_records) {

@@ -29,8 +29,8 @@ bool is_large(const std::string& name) {
 
 std::vector<DomainText> known(bool with_large) {
   std::vector<DomainText> result;
-  for (auto& one : known_domains()) {
-    if (with_large || !is_large(one.name)) result.push_back(std::move(one));
+  for (auto& known_domain : known_domains()) {
+    if (with_large || !is_large(known_domain.name)) result.push_back(std::move(known_domain));
   }
   return result;
 }

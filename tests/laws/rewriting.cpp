@@ -193,7 +193,8 @@ DomainText domain_text(const std::string& name, std::string_view text, std::vect
 
 std::vector<DomainText> known_domains() {
   std::vector<DomainText> all;
-  for (const auto& one : built_in_domains()) all.push_back(domain_text(std::string{one.name}, one.text, one.files));
+  for (const auto& domain : built_in_domains())
+    all.push_back(domain_text(std::string{domain.name}, domain.text, domain.files));
   const auto folder = std::filesystem::path{KITH_SOURCE_DIR} / "domains";
   std::vector<std::filesystem::path> paths;
   for (const auto& entry : std::filesystem::recursive_directory_iterator{folder}) {

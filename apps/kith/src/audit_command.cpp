@@ -68,7 +68,7 @@ void judge(TeachingCache& cache, const AuditOptions& how, std::vector<Observed>&
   if (people.empty()) return;
   const auto& first = people.front().person;
   std::vector<std::vector<ObservedPeriod>> periods;
-  for (auto& one : people) periods.push_back(std::move(one.periods));
+  for (auto& person : people) periods.push_back(std::move(person.periods));
   auto audits =
       Auditor{cache, how}.audit_group(periods, RandomStream{1}.split("audit").split(first.team).split(first.room));
   for (std::size_t i = 0; i < people.size(); ++i) people[i].person.audit = std::move(audits[i]);
@@ -148,7 +148,7 @@ class RunAudit {
     if (!all) throw Error{ErrorKind::kPartial, "interrupted; nothing was written"};
     AuditReport report{.source = options_.folder, .people = {}, .options = audit_options(options_, study_.variants[0])};
     for (auto& team : judged) {
-      for (auto& one : team) report.people.push_back(std::move(one.person));
+      for (auto& member : team) report.people.push_back(std::move(member.person));
     }
     return report;
   }
@@ -236,7 +236,7 @@ class SessionAudit {
     for (const auto& stored : rooms) {
       auto people = people_in(stored, cache);
       judge(cache, how, people);
-      for (auto& one : people) report.people.push_back(std::move(one.person));
+      for (auto& person : people) report.people.push_back(std::move(person.person));
     }
     if (report.people.empty()) {
       throw refusal(ErrorKind::kInfeasible, "E1115", "no room of " + options_.folder + " has had a lesson yet",
@@ -314,9 +314,9 @@ class AuditText {
     line(agreement_in_words(report_), 0);
     const auto shared = shared_misconceptions(report_);
     if (!shared.empty()) out_ += "\nMisconceptions, with the number of people\n";
-    for (const auto& one : shared) {
-      line(fmt::format("{}: thinks that {}; in fact, {} (component {})", one.people, one.thinks.front(), one.fact,
-                       one.component + 1),
+    for (const auto& misconception : shared) {
+      line(fmt::format("{}: thinks that {}; in fact, {} (component {})", misconception.people,
+                       misconception.thinks.front(), misconception.fact, misconception.component + 1),
            2);
     }
   }

@@ -120,8 +120,8 @@ std::string sensitivity_table(const TargetSet& set, const Calibration& result, c
   for (std::size_t t = 0; t < set.targets.size(); ++t) {
     std::vector<std::string> row{to_string(set.targets[t]),
                                  fmt::format("{:.0f}%", 100.0 * std::max(0.0, result.sensitivity_explained[t]))};
-    for (const auto& one : result.sensitivities[t])
-      row.push_back(fmt::format("{:.0f}% {}", 100.0 * one.total_share, one.slope < 0.0 ? "-" : "+"));
+    for (const auto& sensitivity : result.sensitivities[t])
+      row.push_back(fmt::format("{:.0f}% {}", 100.0 * sensitivity.total_share, sensitivity.slope < 0.0 ? "-" : "+"));
     table.add(row);
   }
   return table.text(console) +
@@ -185,10 +185,10 @@ std::string frontier_table(const TargetSet& set, const Calibration& result, cons
   for (const auto t : means)
     header.push_back(fmt::format("{} {}", to_string(set.targets[t].teams), name_of(set.targets[t].quantity)));
   table.add(with_parameters(std::move(header), set));
-  for (const auto& one : result.frontier) {
-    std::vector<std::string> row{fmt::format("{:.2f}", one.first_error), fmt::format("{:.2f}", one.second_error)};
-    for (const auto t : means) row.push_back(figure(one.point.targets[t].model));
-    for (const double value : one.point.values) row.push_back(fmt::format("{:.3g}", value));
+  for (const auto& point : result.frontier) {
+    std::vector<std::string> row{fmt::format("{:.2f}", point.first_error), fmt::format("{:.2f}", point.second_error)};
+    for (const auto t : means) row.push_back(figure(point.point.targets[t].model));
+    for (const double value : point.point.values) row.push_back(fmt::format("{:.3g}", value));
     table.add(row);
   }
   return "\nTrade-off: no setting is better than another of these in both.\n" + table.text(console) +
@@ -207,9 +207,11 @@ Json calibration_json(const TargetSet& set, const CalibrationPoint& point) {
   Json values = Json::object();
   for (std::size_t k = 0; k < set.parameters.size(); ++k) values[set.parameters[k].name] = point.values[k];
   Json targets = Json::array();
-  for (const auto& one : point.targets)
-    targets.push_back(
-        {{"model", one.model}, {"standard_error", one.standard_error}, {"misfit", one.misfit}, {"miss", one.miss}});
+  for (const auto& target : point.targets)
+    targets.push_back({{"model", target.model},
+                       {"standard_error", target.standard_error},
+                       {"misfit", target.misfit},
+                       {"miss", target.miss}});
   return {{"label", point.label},
           {"values", values},
           {"teams_per_cell", point.teams_per_cell},

@@ -157,7 +157,7 @@ std::string why_none(const Atlas& atlas, const HalfSpace& constraint, Purpose pu
   const auto third_person = verb + (purpose == Purpose::kTeach ? "es" : "s");
   if (!why.nearest) return "none " + third_person + " it together with something else either";
   std::vector<std::string> besides;
-  for (const auto& one : why.besides) besides.push_back(described(atlas.domain(), one));
+  for (const auto& beside : why.besides) besides.push_back(described(atlas.domain(), beside));
   const auto id = atlas.id(*why.nearest);
   return fmt::format("{} can {} it, but never alone: the nearest, {}, start {}, also {} {}",
                      counted(why.conveying, "start state"), verb, world_text(atlas.domain(), id.mdp), id.start.value(),

@@ -153,8 +153,8 @@ Json to_json(const KindsReport& report) {
     Json kinds = Json::object();
     for (std::size_t k = 0; k < report.kinds.size(); ++k) {
       Json parameters = Json::object();
-      for (const auto& one : person.parameters[k]) {
-        parameters[one.name] = {{"mean", one.mean}, {"lower", one.lower}, {"upper", one.upper}};
+      for (const auto& parameter : person.parameters[k]) {
+        parameters[parameter.name] = {{"mean", parameter.mean}, {"lower", parameter.lower}, {"upper", parameter.upper}};
       }
       kinds[report.kinds[k].kind] = {
           {"log_evidence", person.log_evidence[k]}, {"probability", person.probability[k]}, {"parameters", parameters}};

@@ -80,14 +80,14 @@ void show_warnings(const StudyReading& reading, Console& console) {
   std::vector<Diagnostic> shown;
   std::vector<std::string> of_domain;
   std::string file;
-  for (const auto& one : reading.diagnostics) {
-    const bool is_of_domain =
-        one.severity == Severity::kWarning && (one.id.starts_with("W02") || one.id.starts_with("W03"));
+  for (const auto& diagnostic : reading.diagnostics) {
+    const bool is_of_domain = diagnostic.severity == Severity::kWarning &&
+                              (diagnostic.id.starts_with("W02") || diagnostic.id.starts_with("W03"));
     if (!is_of_domain) {
-      shown.push_back(one);
-    } else if (std::find(of_domain.begin(), of_domain.end(), one.id) == of_domain.end()) {
-      of_domain.push_back(one.id);
-      file = one.file;
+      shown.push_back(diagnostic);
+    } else if (std::find(of_domain.begin(), of_domain.end(), diagnostic.id) == of_domain.end()) {
+      of_domain.push_back(diagnostic.id);
+      file = diagnostic.file;
     }
   }
   console.show(shown);

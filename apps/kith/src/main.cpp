@@ -56,9 +56,9 @@ std::string_view words_for(Remedy remedy) {
 
 // The diagnostics with their remedies added to the hints.
 std::vector<Diagnostic> with_remedies(std::vector<Diagnostic> diagnostics) {
-  for (auto& one : diagnostics) {
-    const auto words = words_for(one.remedy);
-    if (!words.empty()) one.hint.append(one.hint.empty() ? "" : "; or ").append(words);
+  for (auto& diagnostic : diagnostics) {
+    const auto words = words_for(diagnostic.remedy);
+    if (!words.empty()) diagnostic.hint.append(diagnostic.hint.empty() ? "" : "; or ").append(words);
   }
   return diagnostics;
 }
@@ -126,8 +126,8 @@ int report(Console& console, const UsageError& error) {
 int report(Console& console, const Error& error) {
   auto diagnostics = with_remedies(error.diagnostics());
   if (diagnostics.empty()) diagnostics.push_back(diagnostic_of({}, error.what()));
-  for (auto& one : diagnostics) {
-    if (one.id.empty()) one.id = ending_of(error.kind()).name;
+  for (auto& diagnostic : diagnostics) {
+    if (diagnostic.id.empty()) diagnostic.id = ending_of(error.kind()).name;
   }
   return report(console, std::move(diagnostics), exit_code(error.kind()));
 }

@@ -16,7 +16,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<StrategyChoice>& strategies) {
   std::vector<std::string> names;
-  for (const auto& one : strategies) names.push_back(one.name);
+  for (const auto& strategy : strategies) names.push_back(strategy.name);
   return names;
 }
 
@@ -129,7 +129,7 @@ std::string analyses_text(const std::vector<PlannedAnalysis>& plan, double alpha
       "is no effect.\n",
       alpha);
   std::size_t number = 0;
-  for (const auto& one : plan) text += analysis_text(one, ++number);
+  for (const auto& analysis : plan) text += analysis_text(analysis, ++number);
   return text;
 }
 
@@ -139,7 +139,7 @@ std::string hypotheses_text(const std::vector<PlannedContrast>& primary, const s
   std::string text = "## Hypotheses\n\n";
   if (primary.empty()) {
     text += "Each is tested against the hypothesis of no effect.\n\n";
-    for (const auto& one : plan) text += fmt::format("{}. {} ({})\n", ++number, one.question, one.id);
+    for (const auto& analysis : plan) text += fmt::format("{}. {} ({})\n", ++number, analysis.question, analysis.id);
     return text + "\n";
   }
   text += fmt::format(
@@ -147,9 +147,9 @@ std::string hypotheses_text(const std::vector<PlannedContrast>& primary, const s
       primary.size() == 1 ? "It is" : "Each is",
       primary.size() == 1 ? "" : fmt::format(", corrected for the number of {} by Holm's method", primary.size()),
       primary.size() == 1 ? "it" : "them");
-  for (const auto& one : primary) {
-    text += fmt::format("{}. `{}`: {}: the weighted sum of means {} is not 0.\n", ++number, one.response, one.name,
-                        weights_text(one));
+  for (const auto& hypothesis : primary) {
+    text += fmt::format("{}. `{}`: {}: the weighted sum of means {} is not 0.\n", ++number, hypothesis.response,
+                        hypothesis.name, weights_text(hypothesis));
   }
   return text + "\n";
 }

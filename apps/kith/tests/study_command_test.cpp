@@ -99,7 +99,7 @@ TEST(StudyCommand, LeadsWithTheExamBeyondThreeFeatures) {
                                   "--set", "design.strategies=[\"common\"]",
                                   "--set", "stop.max_periods=1",
                                   "-q"};
-    for (auto& one : more) args.insert(args.end(), {"--set", std::move(one)});
+    for (auto& setting : more) args.insert(args.end(), {"--set", std::move(setting)});
     const auto ran = run_kith(args);
     EXPECT_EQ(ran.code, 0) << ran.err;
     return ran.out;

@@ -93,7 +93,7 @@ std::vector<Term> terms_of(std::string_view text, std::string_view whole) {
 // Divides the positive weights by their sum, and the negative ones.
 void average(std::vector<PlannedContrast::Weight>& weights) {
   double added = 0.0, subtracted = 0.0;
-  for (const auto& one : weights) (one.weight > 0.0 ? added : subtracted) += std::abs(one.weight);
+  for (const auto& weighted : weights) (weighted.weight > 0.0 ? added : subtracted) += std::abs(weighted.weight);
   for (auto& one : weights) one.weight /= one.weight > 0.0 ? added : subtracted;
 }
 

@@ -17,12 +17,13 @@ EquivalenceTests::EquivalenceTests(const FixedEffects& model, const AnalysisOpti
 }
 
 void EquivalenceTests::add(const std::vector<Comparison>& comparisons) {
-  for (const auto& one : comparisons) {
-    const auto test = test_equivalence(one.estimate, {-margin_, margin_}, options_.alpha);
+  for (const auto& comparison : comparisons) {
+    const auto test = test_equivalence(comparison.estimate, {-margin_, margin_}, options_.alpha);
     if (!test) continue;
     const bool is_equivalent = test->p < options_.alpha;
     (is_equivalent ? equivalent_ : others_) += 1;
-    rows_.push_back({text_cell(one.group.empty() ? one.estimate.name : one.group + ": " + one.estimate.name),
+    rows_.push_back({text_cell(comparison.group.empty() ? comparison.estimate.name
+                                                        : comparison.group + ": " + comparison.estimate.name),
                      test->estimate, test->narrow.low, test->narrow.high, test->p,
                      text_cell(std::string{to_string(test->verdict)})});
   }

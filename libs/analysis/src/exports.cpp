@@ -200,7 +200,8 @@ std::string results_paragraph(const Finding& finding, double alpha) {
   }
   for (const auto& family : finding.comparisons) {
     if (!is_stated(family)) continue;
-    for (const auto& one : family.comparisons) append(differences, difference_sentence(family, one, alpha));
+    for (const auto& comparison : family.comparisons)
+      append(differences, difference_sentence(family, comparison, alpha));
   }
   append(tests, differences);
   if (tests.empty() || finding.methods.empty()) return tests;

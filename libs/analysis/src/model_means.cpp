@@ -215,8 +215,9 @@ class Writer {
   void add_planned() {
     for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
       std::vector<MeanContrast> contrasts;
-      for (const auto& one : options_.contrasts) {
-        if (factor_of(model_, one) == f) contrasts.push_back({one.name, weights_of(model_.design.factors[f], one)});
+      for (const auto& contrast : options_.contrasts) {
+        if (factor_of(model_, contrast) == f)
+          contrasts.push_back({contrast.name, weights_of(model_.design.factors[f], contrast)});
       }
       if (contrasts.empty()) continue;
       add_planned_of(f, std::nullopt, contrasts);
@@ -294,7 +295,7 @@ class Writer {
     add_method(finding_, {"planned contrasts of estimated marginal means" + how});
     // Simple effects are in their table; what is said of them is corrected there.
     if (!by) {
-      for (const auto& one : comparisons) finding_.sentence += sentence_of_contrast(one);
+      for (const auto& comparison : comparisons) finding_.sentence += sentence_of_contrast(comparison);
     }
     EquivalenceTests equivalence{model_, options_};
     if (!equivalence) return;

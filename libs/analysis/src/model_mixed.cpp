@@ -87,19 +87,19 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
     finding.warnings.push_back(std::move(text));
   const auto is_zero = [](const VarianceComponent& one) { return one.variance == 0.0; };
   const bool all_zero = std::all_of(model.components.begin(), model.components.end(), is_zero);
-  for (const auto& one : model.components) {
-    if (is_zero(one)) {
+  for (const auto& component : model.components) {
+    if (is_zero(component)) {
       finding.warnings.push_back(fmt::format(
-          "the variance of {0} is estimated as 0, so the tests treat {1} {2}{3}", one.name, data.observations,
-          all_zero ? "as independent" : fmt::format("with the same {} as no more alike than others", one.name),
-          one.intraclass_interval
-              ? fmt::format("; the data allow an intraclass correlation of up to {:.2f}", one.intraclass_interval->high)
-              : ""));
+          "the variance of {0} is estimated as 0, so the tests treat {1} {2}{3}", component.name, data.observations,
+          all_zero ? "as independent" : fmt::format("with the same {} as no more alike than others", component.name),
+          component.intraclass_interval ? fmt::format("; the data allow an intraclass correlation of up to {:.2f}",
+                                                      component.intraclass_interval->high)
+                                        : ""));
     }
-    if (one.groups < kFewGroups) {
+    if (component.groups < kFewGroups) {
       finding.warnings.push_back(fmt::format(
           "there are only {} different values of {}, so the variance and the intraclass correlation are very uncertain",
-          one.groups, one.name));
+          component.groups, component.name));
     }
   }
   if (data.is_ordinal) {

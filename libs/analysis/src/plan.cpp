@@ -66,8 +66,8 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
   if (!rows.empty()) {
     const auto factors = team_model(teams, rows, "knowledge", teams.knowledge).factors;
     std::vector<PlannedContrast> testable;
-    for (const auto& one : design.contrasts) {
-      if (is_testable(factors, one)) testable.push_back(one);
+    for (const auto& contrast : design.contrasts) {
+      if (is_testable(factors, contrast)) testable.push_back(contrast);
     }
     if (const auto finding = primary(teams, testable, options)) add(finding, primary_hypotheses(design));
     for (const auto& [name, values] : responses) {

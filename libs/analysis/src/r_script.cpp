@@ -331,8 +331,8 @@ class Script {
       std::string weights;
       for (const auto& level : factor.levels) {
         double weight = 0.0;
-        for (const auto& one : contrast.weights) {
-          if (one.level == level) weight = one.weight;
+        for (const auto& weighted : contrast.weights) {
+          if (weighted.level == level) weight = weighted.weight;
         }
         weights += fmt::format("{}{}", weights.empty() ? "" : ", ", weight);
       }

@@ -173,23 +173,23 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
     groups.intercepts.push_back(columns);
   };
   std::vector<const Identifier*> numbered;
-  for (const auto& one : identifiers) {
+  for (const auto& identifier : identifiers) {
     const auto outer = std::find_if(identifiers.begin(), identifiers.end(), [&](const Identifier& other) {
-      return &other != &one && is_numbered_within(one, other);
+      return &other != &identifier && is_numbered_within(identifier, other);
     });
     if (outer != identifiers.end()) {
-      numbered.push_back(&one);
+      numbered.push_back(&identifier);
       continue;
     }
-    if (!one.is_stated && one.factor.levels.size() < kFewestGroups) {
-      if (one.factor.levels.size() > 1)
+    if (!identifier.is_stated && identifier.factor.levels.size() < kFewestGroups) {
+      if (identifier.factor.levels.size() > 1)
         groups.notes.push_back(
             fmt::format("column '{}' is named like an identifier but has only {} values, so rows with the same value "
                         "are analysed as independent; add it to the model if it matters",
-                        one.column, one.factor.levels.size()));
+                        identifier.column, identifier.factor.levels.size()));
       continue;
     }
-    add({one.column});
+    add({identifier.column});
   }
   for (const auto* const inner : numbered) {
     const auto outer = std::find_if(identifiers.begin(), identifiers.end(), [&](const Identifier& other) {

@@ -38,28 +38,29 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
                                                      : "Are there the differences that the study was planned to show?"};
   ComparisonFamily family{.kind = ComparisonFamily::Kind::kPrimary};
   std::vector<double> p_values;
-  for (const auto& one : hypotheses) {
+  for (const auto& hypothesis : hypotheses) {
     const auto outcomes = outcomes_of(teams);
     const auto values = std::find_if(outcomes.begin(), outcomes.end(),
-                                     [&](const auto& outcome) { return outcome.first == one.response; });
-    const auto model = team_model(teams, rows, one.response, *values->second);
+                                     [&](const auto& outcome) { return outcome.first == hypothesis.response; });
+    const auto model = team_model(teams, rows, hypothesis.response, *values->second);
     const auto formula = formula_text(model);
     if (finding.model.find(formula) == std::string::npos)
       finding.model += (finding.model.empty() ? "" : "; ") + formula;
     auto& result = family.comparisons.emplace_back(
-        ComparisonResult{.name = one.response + ": " + one.name, .response = one.response});
+        ComparisonResult{.name = hypothesis.response + ": " + hypothesis.name, .response = hypothesis.response});
     const auto fit = effects_of(model, options.alpha);
     if (!fit) {
-      finding.warnings.push_back(fmt::format("{}: {} cannot be tested: {}", one.response, one.name, fit.reason()));
+      finding.warnings.push_back(
+          fmt::format("{}: {} cannot be tested: {}", hypothesis.response, hypothesis.name, fit.reason()));
       continue;
     }
     if (!model.groups.empty())
       add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
-    const auto estimate = contrast_estimate(*fit, one, 1.0 - options.alpha);
+    const auto estimate = contrast_estimate(*fit, hypothesis, 1.0 - options.alpha);
     result.estimate = known(estimate.estimate);
     if (!estimate.inference) {
-      finding.warnings.push_back(
-          fmt::format("{}: {} cannot be tested: {}", one.response, one.name, estimate.inference.reason()));
+      finding.warnings.push_back(fmt::format("{}: {} cannot be tested: {}", hypothesis.response, hypothesis.name,
+                                             estimate.inference.reason()));
       continue;
     }
     const auto& inference = *estimate.inference;
@@ -74,17 +75,18 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
   const auto corrected = adjust(p_values, Correction::kHolm);
   std::string found;
   std::size_t next = 0, shown_to_differ = 0;
-  for (auto& one : family.comparisons) {
-    if (!one.p) {
-      found += fmt::format(" {}: cannot be tested.", one.name);
+  for (auto& comparison : family.comparisons) {
+    if (!comparison.p) {
+      found += fmt::format(" {}: cannot be tested.", comparison.name);
       continue;
     }
     const double p = corrected[next++];
-    one.corrected_p = p;
+    comparison.corrected_p = p;
     shown_to_differ += p < options.alpha ? 1 : 0;
-    found += fmt::format(" {}: {} [{}, {}], {}{}: {}.", one.name, formatted(*one.estimate, kNumber),
-                         formatted(*one.low, kNumber), formatted(*one.high, kNumber), is_family ? "corrected " : "",
-                         p_text(p), p < options.alpha ? "there is a difference" : "no difference was found");
+    found += fmt::format(" {}: {} [{}, {}], {}{}: {}.", comparison.name, formatted(*comparison.estimate, kNumber),
+                         formatted(*comparison.low, kNumber), formatted(*comparison.high, kNumber),
+                         is_family ? "corrected " : "", p_text(p),
+                         p < options.alpha ? "there is a difference" : "no difference was found");
   }
   finding.sentence =
       fmt::format("{} of {} planned as {} of the study ({} teams) {} found{}.{}", shown_to_differ,

@@ -23,8 +23,8 @@ inline constexpr const char* kGroups = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\nc,7\n
 }
 
 [[nodiscard]] inline Finding finding(const Analysis& analysis, const std::string& id) {
-  for (const auto& one : analysis.findings) {
-    if (one.id == id) return one;
+  for (const auto& finding : analysis.findings) {
+    if (finding.id == id) return finding;
   }
   throw std::out_of_range{"no finding " + id};
 }

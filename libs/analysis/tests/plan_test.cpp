@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 
 std::vector<std::string> ids_of(const std::vector<PlannedAnalysis>& plan) {
   std::vector<std::string> ids;
-  for (const auto& one : plan) ids.push_back(one.id);
+  for (const auto& analysis : plan) ids.push_back(analysis.id);
   return ids;
 }
 

@@ -32,8 +32,8 @@ std::size_t Regions::memory() const noexcept {
   const std::size_t words = (table_->size() / 64 + 1) * sizeof(std::uint64_t);
   const std::size_t per_region = sizeof(ConstraintSet) + sizeof(Region) + 2 * words + 8 * sizeof(void*);
   std::size_t bytes = (known_.size() + minimal_.size()) * per_region;
-  for (const auto& one : comparisons_) {
-    bytes += kCloudPoints * (table_->dimension() * sizeof(double) + one.masks.size() / 8);
+  for (const auto& comparison : comparisons_) {
+    bytes += kCloudPoints * (table_->dimension() * sizeof(double) + comparison.masks.size() / 8);
   }
   return bytes;
 }

@@ -111,7 +111,8 @@ std::vector<Comparison> compare_masses(std::size_t d, std::size_t beliefs, std::
   auto observations = draw_observations(truth, change ? kMostUpdates / 2 : kMostUpdates, likelihoods, random);
   if (change) {
     const Direction other = draw_truth(d, random);
-    for (auto& one : draw_observations(other, kMostUpdates / 2, likelihoods, random)) observations.push_back(one);
+    for (auto& draw_observation : draw_observations(other, kMostUpdates / 2, likelihoods, random))
+      observations.push_back(draw_observation);
   }
   const auto regions = regions_near(truth, random);
   const auto chain = chain_masses(truth, observations, regions, steps, random.split("chain"));
@@ -150,8 +151,8 @@ TEST(BeliefCalibration, RanksATruthAsOneOfItsParticles) {
 
 // Four standard errors: five comparisons, 3e-4 together.
 TEST(BeliefCalibration, GivesRegionsTheMassOfALongChain) {
-  for (const auto& one : compare_masses(5, 10, 200'000, false)) {
-    EXPECT_LT(std::abs(one.standard_errors()), 4.0) << described(one);
+  for (const auto& compare_masse : compare_masses(5, 10, 200'000, false)) {
+    EXPECT_LT(std::abs(compare_masse.standard_errors()), 4.0) << described(compare_masse);
   }
 }
 
@@ -171,9 +172,9 @@ TEST_P(BeliefCalibrationSlow, RanksATruthAsOneOfItsParticles) {
 // at least 50 independent draws.
 TEST_P(BeliefCalibrationSlow, GivesRegionsTheMassOfALongChain) {
   for (const bool change : {false, true}) {
-    for (const auto& one : compare_masses(GetParam(), 40, 4'000'000, change)) {
-      EXPECT_LT(std::abs(one.standard_errors()), 3.0) << described(one);
-      EXPECT_GT(one.efficiency, 50.0) << described(one);
+    for (const auto& compare_masse : compare_masses(GetParam(), 40, 4'000'000, change)) {
+      EXPECT_LT(std::abs(compare_masse.standard_errors()), 3.0) << described(compare_masse);
+      EXPECT_GT(compare_masse.efficiency, 50.0) << described(compare_masse);
     }
   }
 }

@@ -73,14 +73,15 @@ inline std::vector<SimulatedObservation> draw_observations(const Direction& trut
 inline void observe_all(ParticleBelief& belief, std::span<const SimulatedObservation> observations,
                         const RandomStream& random) {
   std::uint64_t time = 0;
-  for (const auto& one : observations) belief.observe(one.half_spaces, one.likelihood, random.split(time++));
+  for (const auto& observation : observations)
+    belief.observe(observation.half_spaces, observation.likelihood, random.split(time++));
 }
 
 /// log of the product of the relative likelihoods at w.
 inline double log_product(std::span<const SimulatedObservation> observations, const Direction& w) {
   double sum = 0.0;
-  for (const auto& one : observations) {
-    for (const HalfSpace& h : one.half_spaces) sum += one.likelihood.log_relative(h.margin(w));
+  for (const auto& observation : observations) {
+    for (const HalfSpace& h : observation.half_spaces) sum += observation.likelihood.log_relative(h.margin(w));
   }
   return sum;
 }
@@ -109,15 +110,15 @@ inline std::vector<Estimate> chain_masses(const Direction& truth, std::span<cons
   const auto d = truth.size();
   Eigen::MatrixXd normals(0, d);
   Eigen::VectorXd far, slope;
-  for (const auto& one : observations) {
-    for (const HalfSpace& h : one.half_spaces) {
+  for (const auto& observation : observations) {
+    for (const HalfSpace& h : observation.half_spaces) {
       const auto n = normals.rows();
       normals.conservativeResize(n + 1, d);
       far.conservativeResize(n + 1);
       slope.conservativeResize(n + 1);
       normals.row(n) = h.unit().transpose();
-      far[n] = one.likelihood.log_far();
-      slope[n] = one.likelihood.concentration();
+      far[n] = observation.likelihood.log_far();
+      slope[n] = observation.likelihood.concentration();
     }
   }
   const auto log_density = [&](const Eigen::VectorXd& w) {

@@ -39,7 +39,8 @@ double share_of_product(const std::vector<Observation>& observations, const std:
   const Eigen::MatrixXd points = ConeSampler{Cone{d}}.cover(100'000);
   double all = 0.0, part = 0.0;
   std::vector<HalfSpaceLikelihood> likelihoods;
-  for (const auto& one : observations) likelihoods.emplace_back(one.ability, LikelihoodForm::kDiscontinuous, d);
+  for (const auto& observation : observations)
+    likelihoods.emplace_back(observation.ability, LikelihoodForm::kDiscontinuous, d);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Direction point = points.col(i);
     double log_density = 0.0;
@@ -69,7 +70,8 @@ TEST(BeliefInMoreDimensions, WeighsWhatItHeardFirstAndLastEqually) {
     for (std::size_t k = 0; k + 1 < d; ++k) late.push_back(axis(k, 1, d));
     const auto belief = belief_after(observations, d);
     // Eight standard errors of 1 000 independent points, which these are not.
-    for (const auto& one : late) EXPECT_NEAR(belief.mass_in({&one, 1}), 0.5, 8.0 * std::sqrt(0.25 / 1000.0));
+    for (const auto& half_space : late)
+      EXPECT_NEAR(belief.mass_in({&half_space, 1}), 0.5, 8.0 * std::sqrt(0.25 / 1000.0));
     const double all = std::pow(0.5, static_cast<double>(d - 1));
     EXPECT_NEAR(belief.mass_in(late), all, 8.0 * std::sqrt(all / 1000.0));
   }

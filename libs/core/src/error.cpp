@@ -29,8 +29,8 @@ Error::Error(std::vector<Diagnostic> diagnostics)
     : std::runtime_error{text_of(diagnostics)}, kind_{kind_of(diagnostics)}, diagnostics_{std::move(diagnostics)} {}
 
 Remedy Error::remedy() const noexcept {
-  for (const auto& one : diagnostics_) {
-    if (one.remedy != Remedy::kNone) return one.remedy;
+  for (const auto& diagnostic : diagnostics_) {
+    if (diagnostic.remedy != Remedy::kNone) return diagnostic.remedy;
   }
   return Remedy::kNone;
 }

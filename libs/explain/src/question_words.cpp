@@ -192,8 +192,9 @@ bool fits(const Pattern& pattern, const std::vector<Token>& tokens, std::size_t 
 std::optional<Opening> find_opening(const std::vector<Token>& tokens) {
   for (std::size_t begin = 0; begin < tokens.size(); ++begin) {
     const Pattern* best = nullptr;
-    for (const auto& one : patterns()) {
-      if (fits(one, tokens, begin) && (best == nullptr || one.words.size() > best->words.size())) best = &one;
+    for (const auto& pattern : patterns()) {
+      if (fits(pattern, tokens, begin) && (best == nullptr || pattern.words.size() > best->words.size()))
+        best = &pattern;
     }
     if (best != nullptr) return Opening{best->kind, begin, begin + best->words.size(), best->removes};
   }

@@ -91,7 +91,7 @@ class Comparison {
     if (all.size() == 1) return "not " + verbs(all);
     const std::vector<Surplus> first{all.begin(), all.end() - 1};
     std::string text = "neither";
-    for (const auto& one : first) text += (text.size() > 7 ? ", " : " ") + verbs({one});
+    for (const auto& term : first) text += (text.size() > 7 ? ", " : " ") + verbs({term});
     return text + " nor " + verbs({all.back()});
   }
   // "2 steps" also where the other path has "2 more steps".

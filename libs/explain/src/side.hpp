@@ -36,7 +36,7 @@ struct Side {
   [[nodiscard]] const std::vector<Thing>& things() const { return costs.empty() ? gains : costs; }
   [[nodiscard]] std::string words() const {
     std::vector<std::string> words;
-    for (const auto& one : things()) words.push_back(one.words);
+    for (const auto& thing : things()) words.push_back(thing.words);
     return listed(words);
   }
   // What a verb behind words() agrees with. Only for a side that is not mixed.
@@ -57,8 +57,8 @@ struct Side {
   // What is good about it, with costs spared: "going by road and 2 fewer steps".
   [[nodiscard]] std::string benefits() const {
     std::vector<std::string> words;
-    for (const auto& one : gains) words.push_back(one.words);
-    for (const auto& one : costs) words.push_back(one.fewer);
+    for (const auto& gain : gains) words.push_back(gain.words);
+    for (const auto& cost : costs) words.push_back(cost.fewer);
     return listed(words);
   }
   // The verb of amount().

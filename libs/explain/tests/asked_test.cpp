@@ -136,8 +136,8 @@ TEST_P(Printed, SentencesAreUnderstood) {
 
 std::vector<std::string> all_domains() {
   std::vector<std::string> names;
-  for (const auto& one : built_in_domains()) {
-    if (one.name != "warehouse") names.emplace_back(one.name);  // the largest
+  for (const auto& domain : built_in_domains()) {
+    if (domain.name != "warehouse") names.emplace_back(domain.name);  // the largest
   }
   return names;
 }

@@ -63,11 +63,11 @@ void expect_taught_and_found(const std::string& name, std::span<const double> di
           expect_shown(atlas.domain(), atlas.id(test.demo).mdp, atlas.trajectory(test.demo));
       }
     });
-    for (const auto& one : isolated_constraints(atlas)) {
+    for (const auto& isolated : isolated_constraints(atlas)) {
       for (const auto purpose : {Purpose::kTeach, Purpose::kTest}) {
-        const auto demo = simplest_isolating(atlas, one.constraint, purpose);
+        const auto demo = simplest_isolating(atlas, isolated.constraint, purpose);
         if (!demo) continue;
-        if (const auto contrast = contrast_for(atlas, *demo, one.constraint)) expect_contrast(atlas, *contrast);
+        if (const auto contrast = contrast_for(atlas, *demo, isolated.constraint)) expect_contrast(atlas, *contrast);
       }
     }
     std::vector<std::string> questions{"what does it do", "what does it do in world 0"};

@@ -113,7 +113,8 @@ TEST(ShortStatement, KeepsLessonsTrueAndShort) {
     const auto& atlas = atlas_of(name);
     const auto& domain = atlas.domain();
     for (const auto& component : make_curriculum(atlas).components) {
-      for (const auto& one : component.constraints) expect_true_and_short(domain, one, component.constraints);
+      for (const auto& constraint : component.constraints)
+        expect_true_and_short(domain, constraint, component.constraints);
       for (const auto& shown : component.demonstrations) {
         for (const auto& one : shown.conveys) expect_true_and_short(domain, one, shown.conveys);
         expect_short_numbers(shown.reason, 100'000);

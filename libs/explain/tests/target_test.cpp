@@ -27,22 +27,23 @@ bool same_weights(const Atlas& atlas, const std::vector<HalfSpace>& a, const std
 TEST(SimplestIsolating, IsTheSimplestOfAllThatConveyExactlyTheConstraint) {
   for (const auto* name : {"item-delivery", "skateboard"}) {
     const auto& atlas = atlas_of(name);
-    for (const auto& one : isolated_constraints(atlas)) {
-      SCOPED_TRACE(std::string{name} + ": " + described(atlas.domain(), one.constraint));
+    for (const auto& isolated : isolated_constraints(atlas)) {
+      SCOPED_TRACE(std::string{name} + ": " + described(atlas.domain(), isolated.constraint));
       std::size_t n = 0;
       std::optional<StartIndex> best;
       const auto rank = [&](StartIndex demo) {
         return std::pair{atlas.domain().complexity(atlas.id(demo)), atlas.trajectory(demo).actions.size()};
       };
       for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-        if (!same_weights(atlas, atlas.constraints().half_spaces(atlas.one_step(demo)), {one.constraint})) continue;
+        if (!same_weights(atlas, atlas.constraints().half_spaces(atlas.one_step(demo)), {isolated.constraint}))
+          continue;
         ++n;
         if (!best || rank(demo) < rank(*best)) best = demo;
       }
-      EXPECT_EQ(n, one.teaching);
-      EXPECT_EQ(simplest_isolating(atlas, one.constraint, Purpose::kTeach), best);
+      EXPECT_EQ(n, isolated.teaching);
+      EXPECT_EQ(simplest_isolating(atlas, isolated.constraint, Purpose::kTeach), best);
       if (best) {
-        EXPECT_TRUE(isolates(atlas, *best, one.constraint, Purpose::kTeach));
+        EXPECT_TRUE(isolates(atlas, *best, isolated.constraint, Purpose::kTeach));
       }
     }
   }
@@ -51,13 +52,13 @@ TEST(SimplestIsolating, IsTheSimplestOfAllThatConveyExactlyTheConstraint) {
 TEST(SimplestIsolating, FindsTestsThatDiscriminateTheConstraintAlone) {
   const auto& atlas = atlas_of("item-delivery");
   std::size_t tests = 0;
-  for (const auto& one : isolated_constraints(atlas)) {
-    const auto demo = simplest_isolating(atlas, one.constraint, Purpose::kTest);
-    EXPECT_EQ(demo.has_value(), one.testing > 0);
+  for (const auto& isolated : isolated_constraints(atlas)) {
+    const auto demo = simplest_isolating(atlas, isolated.constraint, Purpose::kTest);
+    EXPECT_EQ(demo.has_value(), isolated.testing > 0);
     if (!demo) continue;
     ++tests;
     EXPECT_TRUE(same_weights(atlas, atlas.constraints().half_spaces(atlas.tables().robot_cell_facets(*demo)),
-                             {one.constraint}));
+                             {isolated.constraint}));
   }
   EXPECT_GT(tests, 0u);
 }

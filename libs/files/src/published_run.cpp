@@ -123,8 +123,8 @@ PublishedRun PublishedRun::open(const fs::path& folder) {
     }
   }
   if (const auto missing = manifest->find("missing"); missing != manifest->end() && missing->is_array()) {
-    for (const auto& one : *missing) {
-      if (one.is_string()) run.missing_.push_back(one.get<std::string>());
+    for (const auto& file : *missing) {
+      if (file.is_string()) run.missing_.push_back(file.get<std::string>());
     }
   }
   for (const auto& [name, hash] : run.hashes_) {

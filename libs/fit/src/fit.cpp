@@ -186,8 +186,8 @@ class Fitting {
       const double probability = mixture_ ? mixture_->probability[i][k] : members_[k].weights[i];
       if (mixture_) person.type_probabilities.push_back(probability);
       if (probability < 1e-6) continue;
-      for (const auto& one : masses_[k]) {
-        masses.push_back(one);
+      for (const auto& mass : masses_[k]) {
+        masses.push_back(mass);
         probabilities.push_back(probability / static_cast<double>(masses_[k].size()));
       }
     }

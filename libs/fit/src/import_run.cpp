@@ -137,9 +137,9 @@ class RunImport {
   // The parameters that all kinds have.
   [[nodiscard]] static ParameterValues as_bayesian(const ParameterValues& parameters) {
     ParameterValues values{bayesian_model().parameters};
-    for (const auto& one : values.declared()) {
+    for (const auto& parameter : values.declared()) {
       for (std::size_t i = 0; i < parameters.declared().size(); ++i) {
-        if (parameters.declared()[i].name == one.name) values.set(one.name, parameters.values()[i]);
+        if (parameters.declared()[i].name == parameter.name) values.set(parameter.name, parameters.values()[i]);
       }
     }
     return values;

@@ -61,9 +61,9 @@ class KindReplay {
   [[nodiscard]] double log_likelihood(const LearnerModel& model, const KindPoint& point,
                                       const RandomStream& random) const {
     ParameterValues values{model.parameters};
-    for (const auto& one : known_.parameters.declared()) {
-      const auto i = static_cast<std::size_t>(&one - known_.parameters.declared().data());
-      values.set(one.name, known_.parameters.values()[i]);
+    for (const auto& parameter : known_.parameters.declared()) {
+      const auto i = static_cast<std::size_t>(&parameter - known_.parameters.declared().data());
+      values.set(parameter.name, known_.parameters.values()[i]);
     }
     for (std::size_t i = 0; i < model.fitted.size(); ++i) set(values, model.fitted[i].name, point.own[i]);
     const std::vector<double> traits{point.ability, mean_gain(known_.parameters.spread("confirm_gain")),

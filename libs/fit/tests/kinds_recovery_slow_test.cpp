@@ -60,10 +60,10 @@ Recovered recovered(const TruePeople& people) {
     result.named += report.kinds[person.likeliest].kind == people.kind ? 1 : 0;
     for (std::size_t k = 0; k < report.kinds.size(); ++k) {
       if (report.kinds[k].kind != people.kind) continue;
-      for (const auto& one : person.parameters[k]) {
-        const auto truth = people.parameters.find(one.name);
+      for (const auto& parameter : person.parameters[k]) {
+        const auto truth = people.parameters.find(parameter.name);
         if (truth == people.parameters.end()) continue;
-        result.covered[one.name] += one.lower <= truth->second && truth->second <= one.upper ? 1 : 0;
+        result.covered[parameter.name] += parameter.lower <= truth->second && truth->second <= parameter.upper ? 1 : 0;
       }
     }
   }

@@ -46,9 +46,9 @@ class NoisyRationalLearner final : public LikeBayesian {
     const auto& given = evidence.paths();
     std::vector<std::vector<IntegerVector>> paths;
     std::vector<std::size_t> number;
-    for (const auto& one : given) {
-      const auto& all = paths.emplace_back(atlas.tables().coverage_set(one.test));
-      number.push_back(static_cast<std::size_t>(std::find(all.begin(), all.end(), one.counts) - all.begin()));
+    for (const auto& answer : given) {
+      const auto& all = paths.emplace_back(atlas.tables().coverage_set(answer.test));
+      number.push_back(static_cast<std::size_t>(std::find(all.begin(), all.end(), answer.counts) - all.begin()));
       if (number.back() == all.size()) return 0.0;  // best for nobody
     }
     return mean_over_weights(*person_.belief(), evidence, [&](const Direction& weights, PolicyCellIndex /*cell*/) {

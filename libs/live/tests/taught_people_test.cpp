@@ -50,7 +50,7 @@ TEST(TaughtPeople, AreToldApartThoughTheyHadTheSamePlace) {
   EXPECT_EQ(leaver, (std::vector<std::size_t>{1, 2}));
   EXPECT_GT(successor.front(), 2u);
   EXPECT_EQ(successor.back(), 4u);
-  for (const auto& one : people) EXPECT_TRUE(one.is_person);
+  for (const auto& person : people) EXPECT_TRUE(person.is_person);
 }
 
 TEST(TaughtPeople, KeepTheAnswersThatTheyGaveBeforeTheyLeft) {

@@ -228,9 +228,10 @@ class Page {
     out_ +=
         "<tr><th class=\"n\">People</th><th>think that</th><th>in fact</th>"
         "<th>Component</th></tr>\n";
-    for (const auto& one : shared) {
-      out_ += fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", one.people,
-                          svg_escaped(one.thinks.front()), svg_escaped(one.fact), one.component + 1);
+    for (const auto& misconception : shared) {
+      out_ += fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", misconception.people,
+                          svg_escaped(misconception.thinks.front()), svg_escaped(misconception.fact),
+                          misconception.component + 1);
     }
     out_ += "</table></div>\n";
   }

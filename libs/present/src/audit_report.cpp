@@ -236,9 +236,11 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                           {"not_taught", counts.not_taught}});
   }
   Json shared = Json::array();
-  for (const auto& one : shared_misconceptions(report)) {
-    shared.push_back(
-        {{"component", one.component + 1}, {"fact", one.fact}, {"thinks", one.thinks}, {"people", one.people}});
+  for (const auto& misconception : shared_misconceptions(report)) {
+    shared.push_back({{"component", misconception.component + 1},
+                      {"fact", misconception.fact},
+                      {"thinks", misconception.thinks},
+                      {"people", misconception.people}});
   }
   Json people = Json::array();
   for (const auto& person : report.people) {

@@ -83,7 +83,7 @@ class MoveTable {
       row[choice.action.value()] = utf8(kFirst + static_cast<char32_t>(kind));
     }
     std::string text;
-    for (const auto& one : row) text += one;
+    for (const auto& word : row) text += word;
     return text;
   }
   [[nodiscard]] std::size_t number_of(Json counts) {

@@ -125,7 +125,7 @@ TEST(BoardJson, PutsConstraintsIntoSentences) {
   const auto sentences = sentences_json(item_delivery().domain(), item_delivery().policy_bec_half_spaces());
   ASSERT_EQ(sentences.size(), 3u);
   EXPECT_EQ(sentences.at(0).at("normal"), parsed("[-1, 0, 2]"));
-  for (const auto& one : sentences) EXPECT_FALSE(one.at("text").get<std::string>().empty());
+  for (const auto& sentence : sentences) EXPECT_FALSE(sentence.at("text").get<std::string>().empty());
 }
 
 // --- lessons ----------------------------------------------------------------------

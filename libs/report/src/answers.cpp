@@ -85,15 +85,15 @@ Extremes extremes_of(const Finding& finding, const std::string& factor, int digi
   if (found == all.end()) return {};
   std::string least_name, most_name;
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const auto& one : found->means) {
-    if (!one.mean) continue;
-    if (*one.mean < least) {
-      least = *one.mean;
-      least_name = one.level;
+  for (const auto& mean : found->means) {
+    if (!mean.mean) continue;
+    if (*mean.mean < least) {
+      least = *mean.mean;
+      least_name = mean.level;
     }
-    if (*one.mean > most) {
-      most = *one.mean;
-      most_name = one.level;
+    if (*mean.mean > most) {
+      most = *mean.mean;
+      most_name = mean.level;
     }
   }
   if (!(least <= most)) return {};
@@ -187,10 +187,11 @@ std::vector<Answer> planned(const FirstScreen& screen) {
   const auto* finding = finding_of(screen, "primary");
   const auto* family = finding == nullptr ? nullptr : comparisons_of(*finding, ComparisonFamily::Kind::kPrimary);
   if (family == nullptr) return list;
-  for (const auto& one : family->comparisons) {
-    Answer answer{finding->topic, one.name, one.response == kPeriods.id ? kPeriods.digits : 2, finding->id};
-    set_difference(one, answer);
-    answer.p = p_of(one);
+  for (const auto& comparison : family->comparisons) {
+    Answer answer{finding->topic, comparison.name, comparison.response == kPeriods.id ? kPeriods.digits : 2,
+                  finding->id};
+    set_difference(comparison, answer);
+    answer.p = p_of(comparison);
     answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : "no difference found";
     list.push_back(std::move(answer));
   }

@@ -86,19 +86,19 @@ std::string headline(const FirstScreen& screen) {
 
 Json answers(const FirstScreen& screen) {
   Json list = Json::array();
-  for (const auto& one : all_answers(screen)) {
-    list.push_back({{"question", one.question},
-                    {"outcome", one.outcome},
-                    {"means", one.means},
-                    {"compared", one.compared},
-                    {"estimate", number(one.estimate)},
-                    {"low", number(one.low)},
-                    {"high", number(one.high)},
-                    {"bound", number(one.bound)},
-                    {"digits", one.digits},
-                    {"p", number(one.p)},
-                    {"answer", one.answer},
-                    {"finding", one.finding}});
+  for (const auto& answer : all_answers(screen)) {
+    list.push_back({{"question", answer.question},
+                    {"outcome", answer.outcome},
+                    {"means", answer.means},
+                    {"compared", answer.compared},
+                    {"estimate", number(answer.estimate)},
+                    {"low", number(answer.low)},
+                    {"high", number(answer.high)},
+                    {"bound", number(answer.bound)},
+                    {"digits", answer.digits},
+                    {"p", number(answer.p)},
+                    {"answer", answer.answer},
+                    {"finding", answer.finding}});
   }
   return list;
 }

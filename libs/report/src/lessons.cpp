@@ -32,7 +32,7 @@ using TeamLessons =
 
 std::vector<std::size_t> telling_first(const ReportDesign& design, const RunData& data) {
   std::vector<std::size_t> order;
-  for (const auto& one : telling_teams(design, data)) order.push_back(one.team);
+  for (const auto& telling : telling_teams(design, data)) order.push_back(telling.team);
   std::vector<std::size_t> rest;
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     if (std::find(order.begin(), order.end(), i) == order.end()) rest.push_back(i);

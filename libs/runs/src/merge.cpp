@@ -32,7 +32,7 @@ class Complaints {
   void throw_if_any() const {
     if (diagnostics_.empty()) return;
     std::string text;
-    for (const auto& one : diagnostics_) text += to_text(one);
+    for (const auto& diagnostic : diagnostics_) text += to_text(diagnostic);
     text.pop_back();
     throw Error{kind_, text, diagnostics_};
   }

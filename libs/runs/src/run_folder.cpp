@@ -192,7 +192,7 @@ void RunFolder::check_content(bool replace) {
   const auto more = different.size() > kMost ? different.size() - kMost : 0;
   if (more > 0) different.resize(kMost);
   std::string listed;
-  for (const auto& one : different) listed += (listed.empty() ? "" : ", ") + one;
+  for (const auto& key : different) listed += (listed.empty() ? "" : ", ") + key;
   if (more > 0) listed += " and " + std::to_string(more) + " more";
   throw Error{ErrorKind::kUsage,
               path_.string() + " holds the results of a different study" + (study ? "" : ", unfinished") +

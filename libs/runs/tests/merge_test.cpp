@@ -111,7 +111,7 @@ TEST_F(ShardTest, AreRefusedWithADamagedRecordUnlessToldToLeaveItOut) {
   const auto shards = open_shards(folders, "kith test", true);
   EXPECT_THAT(shards.missing, ElementsAre(AllOf(HasSubstr("shard 2/2"), HasSubstr("team 4"))));
   StudyRun merged{folder_, quick_study(), how()};
-  for (const auto& one : shards.journals) merged.take_up(one);
+  for (const auto& journal : shards.journals) merged.take_up(journal);
   EXPECT_EQ(kind_of_failure([&] { (void)merged.publish({}); }), ErrorKind::kMismatch);
   EXPECT_FALSE(fs::exists(folder_ / "tables"));
   RunFacts facts;

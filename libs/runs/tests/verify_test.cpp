@@ -41,7 +41,7 @@ class VerifyTest : public StudyRunTest {
 
   std::vector<std::string> ids() {
     std::vector<std::string> result;
-    for (const auto& one : verify().mismatches) result.push_back(one.id);
+    for (const auto& mismatch : verify().mismatches) result.push_back(mismatch.id);
     return result;
   }
 

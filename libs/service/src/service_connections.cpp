@@ -260,7 +260,7 @@ void LiveService::State::carry_out(const std::string& id, Reply reply, const std
   act([this, id](const std::optional<Refusal>& refusal) {
     if (!refusal) seen_messages.insert(id);
     const auto senders = open_messages.extract(id);
-    for (const auto& one : senders.mapped()) one(refusal);
+    for (const auto& send : senders.mapped()) send(refusal);
   });
 }
 

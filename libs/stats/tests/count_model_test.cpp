@@ -33,29 +33,29 @@ Estimable<CountModel> fit_main_effects(const std::vector<double>& counts, const 
 }
 
 TEST(CountModel, AgreesWithRsGlmNbAndGlm) {
-  for (const auto& one : count_cases()) {
-    SCOPED_TRACE(one.at("name").get<std::string>());
-    const std::vector<double> counts = one.at("counts");
-    const auto factors = read_factors(one.at("factors"));
+  for (const auto& reference : count_cases()) {
+    SCOPED_TRACE(reference.at("name").get<std::string>());
+    const std::vector<double> counts = reference.at("counts");
+    const auto factors = read_factors(reference.at("factors"));
     const auto model = fit_main_effects(counts, factors);
     ASSERT_TRUE(model) << model.reason();
-    ASSERT_EQ(model->theta.has_value(), !one.at("theta").is_null());
+    ASSERT_EQ(model->theta.has_value(), !reference.at("theta").is_null());
     if (model->theta) {
-      EXPECT_LE(relative_error(*model->theta, one.at("theta")), kSearchError);
+      EXPECT_LE(relative_error(*model->theta, reference.at("theta")), kSearchError);
     }
-    EXPECT_LE(relative_error(model->log_likelihood, one.at("log_likelihood")), kSearchError);
+    EXPECT_LE(relative_error(model->log_likelihood, reference.at("log_likelihood")), kSearchError);
     const auto& coefficients = model->fixed.coefficients;
-    ASSERT_EQ(coefficients.size(), one.at("coefficients").size());
+    ASSERT_EQ(coefficients.size(), reference.at("coefficients").size());
     for (std::size_t c = 0; c < coefficients.size(); ++c) {
-      EXPECT_LE(relative_error(coefficients[c], one.at("coefficients")[c]), kSearchError);
+      EXPECT_LE(relative_error(coefficients[c], reference.at("coefficients")[c]), kSearchError);
       const double standard_error = std::sqrt(model->fixed.covariance[c * coefficients.size() + c]);
-      EXPECT_LE(relative_error(standard_error, one.at("standard_errors")[c]), kSearchError);
+      EXPECT_LE(relative_error(standard_error, reference.at("standard_errors")[c]), kSearchError);
     }
-    ASSERT_EQ(model->term_tests.size(), one.at("tests").size());
+    ASSERT_EQ(model->term_tests.size(), reference.at("tests").size());
     std::vector<std::vector<std::size_t>> terms;
     for (std::size_t f = 0; f < model->term_tests.size(); ++f) {
       terms.push_back({f});
-      const auto& expected = one.at("tests")[f];
+      const auto& expected = reference.at("tests")[f];
       const auto& test = model->term_tests[f].test;
       ASSERT_TRUE(test);
       EXPECT_EQ(test->df, std::vector<double>{expected.at("df").get<double>()});
@@ -64,7 +64,7 @@ TEST(CountModel, AgreesWithRsGlmNbAndGlm) {
     }
     const auto poisson = fit_quasi_poisson(counts, factors, terms);
     ASSERT_TRUE(poisson) << poisson.reason();
-    EXPECT_LE(relative_error(poisson->dispersion, one.at("dispersion")), kSearchError);
+    EXPECT_LE(relative_error(poisson->dispersion, reference.at("dispersion")), kSearchError);
   }
 }
 
@@ -117,9 +117,9 @@ TEST(CountModel, HasTheThetaOfTheLargestLikelihood) {
 }
 
 TEST(CountModel, DoesNotDependOnTheOrderOfObservations) {
-  for (const auto& one : count_cases()) {
-    auto counts = one.at("counts").get<std::vector<double>>();
-    auto factors = read_factors(one.at("factors"));
+  for (const auto& reference : count_cases()) {
+    auto counts = reference.at("counts").get<std::vector<double>>();
+    auto factors = read_factors(reference.at("factors"));
     const auto model = fit_main_effects(counts, factors);
     std::ranges::reverse(counts);
     for (auto& factor : factors) std::ranges::reverse(factor.codes);

@@ -27,12 +27,12 @@ std::vector<bool> events_of(const json& one) { return one.at("event").get<std::v
 double or_zero(const json& value) { return value.is_null() ? 0.0 : value.get<double>(); }
 
 TEST(KaplanMeier, AgreesWithRsSurvfit) {
-  for (const auto& one : survival_cases()) {
-    SCOPED_TRACE(one.at("name").get<std::string>());
-    const auto times = one.at("time").get<std::vector<double>>();
-    const auto curve = kaplan_meier(times, events_of(one));
-    const auto wide = kaplan_meier(times, events_of(one), 0.8);
-    const auto& expected = one.at("curve");
+  for (const auto& reference : survival_cases()) {
+    SCOPED_TRACE(reference.at("name").get<std::string>());
+    const auto times = reference.at("time").get<std::vector<double>>();
+    const auto curve = kaplan_meier(times, events_of(reference));
+    const auto wide = kaplan_meier(times, events_of(reference), 0.8);
+    const auto& expected = reference.at("curve");
     ASSERT_EQ(curve.steps.size(), expected.at("time").size());
     for (std::size_t i = 0; i < curve.steps.size(); ++i) {
       const auto& step = curve.steps[i];
@@ -62,15 +62,16 @@ void expect_equal(const Estimable<TestResult>& test, const json& expected) {
 
 TEST(LogRank, AgreesWithRsSurvdiff) {
   int compared = 0;
-  for (const auto& one : survival_cases()) {
-    SCOPED_TRACE(one.at("name").get<std::string>());
-    if (!one.contains("log_rank")) continue;
-    const auto times = one.at("time").get<std::vector<double>>();
-    const auto groups = read_factor(one.at("groups"));
-    expect_equal(log_rank(times, events_of(one), groups), one.at("log_rank"));
+  for (const auto& reference : survival_cases()) {
+    SCOPED_TRACE(reference.at("name").get<std::string>());
+    if (!reference.contains("log_rank")) continue;
+    const auto times = reference.at("time").get<std::vector<double>>();
+    const auto groups = read_factor(reference.at("groups"));
+    expect_equal(log_rank(times, events_of(reference), groups), reference.at("log_rank"));
     ++compared;
-    if (!one.contains("stratified")) continue;
-    expect_equal(log_rank(times, events_of(one), groups, read_factor(one.at("strata"))), one.at("stratified"));
+    if (!reference.contains("stratified")) continue;
+    expect_equal(log_rank(times, events_of(reference), groups, read_factor(reference.at("strata"))),
+                 reference.at("stratified"));
     ++compared;
   }
   EXPECT_EQ(compared, 10);

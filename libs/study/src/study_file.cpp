@@ -75,7 +75,7 @@ class StudyParser {
       return;
     }
     std::vector<std::string> names;
-    for (const auto& one : known) names.emplace_back(one.name);
+    for (const auto& kind : known) names.emplace_back(kind.name);
     report_.error("E0116", value->place(),
                   "there is no domain '" + name + "': neither built in nor a file that ends in .toml and can be read",
                   suggestion(name, names));
@@ -301,7 +301,7 @@ StudyReading load_study(const std::string& name_or_path, StudyReadOptions option
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) {
     std::vector<std::string> names;
-    for (const auto& one : known) names.emplace_back(one.name);
+    for (const auto& kind : known) names.emplace_back(kind.name);
     Diagnostic unknown;
     unknown.id = "E0116";
     unknown.file = name_or_path;

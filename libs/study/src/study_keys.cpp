@@ -48,7 +48,7 @@ std::string alternatives(const std::vector<std::string_view>& names) {
 std::vector<Parameter> declared_in(std::string_view table) {
   std::vector<Parameter> result;
   const auto add = [&](const auto& keys) {
-    for (const auto& one : keys) result.push_back(one.parameter);
+    for (const auto& key : keys) result.push_back(key.parameter);
   };
   if (table == "teacher") {
     add(teacher_keys());

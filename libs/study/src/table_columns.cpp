@@ -86,7 +86,7 @@ Columns forecast_columns() {
     columns.push_back(measure("forecast_" + what + "_low", "Lower limit of the central 80 % of the forecast.", unit));
     columns.push_back(measure("forecast_" + what + "_high", "Upper limit of the central 80 % of the forecast.", unit));
   }
-  for (auto& one : columns) one.required = false;
+  for (auto& column : columns) column.required = false;
   return columns;
 }
 
@@ -384,8 +384,8 @@ std::vector<TableDescription> study_tables(const Study& study) {
          keys + estimate_columns()});
   }
   for (auto& table : tables) {
-    for (auto& one : table.columns) {
-      if (one.kind == ColumnKind::kUnspecified) one.kind = kind_of(one.name);
+    for (auto& column : table.columns) {
+      if (column.kind == ColumnKind::kUnspecified) column.kind = kind_of(column.name);
     }
   }
   return tables;
@@ -398,7 +398,7 @@ OptionalColumns optional_columns(const Study& study) {
   result.estimates = has_estimates(study);
   result.beliefs = has_belief_quality(study);
   result.subgroups = has_subgroups(study);
-  for (const auto& one : trait_columns(study)) result.traits.push_back(one.name);
+  for (const auto& column : trait_columns(study)) result.traits.push_back(column.name);
   return result;
 }
 

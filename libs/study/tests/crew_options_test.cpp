@@ -59,7 +59,7 @@ TEST(Cost, OfAWholeTeamIsThatOfEveryMember) {
                 (10.0 * static_cast<double>(team.demonstrations) + 25.0 * static_cast<double>(team.tests)) / 60.0,
                 1e-9);
     EXPECT_NEAR(team.cost.person_minutes, 3.0 * team.cost.minutes, 1e-9);
-    for (const auto& one : team.learners) EXPECT_EQ(one.periods, team.periods);
+    for (const auto& learner : team.learners) EXPECT_EQ(learner.periods, team.periods);
   }
   EXPECT_THAT(crew_table({{crew_spec()}}, "teams.csv"), Not(HasSubstr("person_periods")));
 }
@@ -70,7 +70,7 @@ TEST(Release, SavesTheTimeOfThoseWhoAreDone) {
   std::size_t away = 0;
   for (const auto& team : run_crews({{spec}})) {
     std::size_t periods = 0;
-    for (const auto& one : team.learners) periods += one.periods;
+    for (const auto& learner : team.learners) periods += learner.periods;
     EXPECT_EQ(team.cost.person_periods, periods);
     EXPECT_EQ(team.progress.size(), periods);
     away += 3 * team.periods - periods;

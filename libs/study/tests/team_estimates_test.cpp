@@ -56,17 +56,17 @@ TEST(TeamEstimates, TellAbilitiesApart) {
     ASSERT_EQ(team.estimates.size(), 10u * 2u * 4u);
     EXPECT_EQ(team.estimates.front().period, 0u);
     EXPECT_NEAR(*team.estimates.front().ability_mean, 0.77, 1e-9);  // of the bank, before any answer
-    for (const auto& one : team.estimates) {
-      if (one.component > 0) {
-        EXPECT_FALSE(one.ability || one.ability_mean || one.p_knew);
-        EXPECT_GE(*one.p_right, 0.0);
-        EXPECT_LE(*one.right, 1.0 + 1e-9);
+    for (const auto& estimate : team.estimates) {
+      if (estimate.component > 0) {
+        EXPECT_FALSE(estimate.ability || estimate.ability_mean || estimate.p_knew);
+        EXPECT_GE(*estimate.p_right, 0.0);
+        EXPECT_LE(*estimate.right, 1.0 + 1e-9);
         continue;
       }
-      EXPECT_NEAR(*one.ability, one.type == 'L' ? 0.62 : 0.92, 1e-9);
-      EXPECT_LE(*one.ability_low, *one.ability_mean);
-      EXPECT_GE(*one.ability_high, *one.ability_mean);
-      if (one.period == 9) (one.type == 'L' ? low : high) += *one.ability_mean / 3.0;
+      EXPECT_NEAR(*estimate.ability, estimate.type == 'L' ? 0.62 : 0.92, 1e-9);
+      EXPECT_LE(*estimate.ability_low, *estimate.ability_mean);
+      EXPECT_GE(*estimate.ability_high, *estimate.ability_mean);
+      if (estimate.period == 9) (estimate.type == 'L' ? low : high) += *estimate.ability_mean / 3.0;
     }
   }
   EXPECT_LT(low, high - 0.05);
@@ -100,11 +100,11 @@ TEST(TeamEstimates, SayWhoKnewWhat) {
   spec.teaching.hypotheses_about = HypothesesAbout::kKnownComponents;
   for (auto& type : spec.learner_types) type.parameters.set("known", 0.5);
   for (const auto& team : estimated_teams(spec)) {
-    for (const auto& one : team.estimates) {
-      EXPECT_FALSE(one.ability_mean || one.p_proficient);
-      EXPECT_EQ(one.p_knew.has_value(), one.component == 1 || one.component == 2);
-      if (one.component == 1 && one.period == 0) {
-        EXPECT_NEAR(*one.p_knew, 0.5, 1e-9);
+    for (const auto& estimate : team.estimates) {
+      EXPECT_FALSE(estimate.ability_mean || estimate.p_proficient);
+      EXPECT_EQ(estimate.p_knew.has_value(), estimate.component == 1 || estimate.component == 2);
+      if (estimate.component == 1 && estimate.period == 0) {
+        EXPECT_NEAR(*estimate.p_knew, 0.5, 1e-9);
       }
     }
   }

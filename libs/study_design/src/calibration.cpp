@@ -105,7 +105,7 @@ class Calibrator {
     Box next = box;
     for (std::size_t k = 0; k < present_.size(); ++k) {
       std::vector<double> coordinates;
-      for (const auto& one : sample) coordinates.push_back(one.unit[k]);
+      for (const auto& drawn : sample) coordinates.push_back(drawn.unit[k]);
       std::sort(coordinates.begin(), coordinates.end());
       const auto quantile = [&](double q) {
         return coordinates[static_cast<std::size_t>(q * static_cast<double>(coordinates.size() - 1))];

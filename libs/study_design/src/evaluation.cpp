@@ -37,7 +37,7 @@ Figures pooled_figures(const Target& target, const TeamPool& pool) {
     return target.statistic == Statistic::kMean ? shift + some.mean() : std::sqrt(some.variance());
   };
   Figures figures{figure(all), {}};
-  for (const auto& one : by_replicate) figures.without.push_back(figure(all.without(one)));
+  for (const auto& replicate : by_replicate) figures.without.push_back(figure(all.without(replicate)));
   return figures;
 }
 

@@ -101,10 +101,10 @@ void AnswerFit::read_cells(const Test& asked, const IntegerVector& answer, OneTe
 
 std::vector<std::size_t> AnswerFit::numbers_of(std::span<const HalfSpace> half_spaces) {
   std::vector<std::size_t> numbers;
-  for (const auto& one : half_spaces) {
-    const auto known = std::find(half_spaces_.begin(), half_spaces_.end(), one);
+  for (const auto& half_space : half_spaces) {
+    const auto known = std::find(half_spaces_.begin(), half_spaces_.end(), half_space);
     numbers.push_back(static_cast<std::size_t>(known - half_spaces_.begin()));
-    if (known == half_spaces_.end()) half_spaces_.push_back(one);
+    if (known == half_spaces_.end()) half_spaces_.push_back(half_space);
   }
   return numbers;
 }

@@ -30,9 +30,9 @@ class Highlights : public CurriculumStrategy {
     });
     std::vector<StartIndex> demos, others;
     std::set<std::size_t> mdps;
-    for (const auto& one : ranked) {
-      const bool is_first = mdps.insert(view.atlas.id(one.demo).mdp.value()).second;
-      (is_first ? demos : others).push_back(one.demo);
+    for (const auto& candidate : ranked) {
+      const bool is_first = mdps.insert(view.atlas.id(candidate.demo).mdp.value()).second;
+      (is_first ? demos : others).push_back(candidate.demo);
     }
     demos.insert(demos.end(), others.begin(), others.end());
     return demos;

@@ -17,9 +17,9 @@ constexpr double kCertain = 1.0 - 1e-9;
 
 void require_hypotheses(std::span<const LearnerHypothesis> hypotheses) {
   if (hypotheses.empty()) throw std::invalid_argument{"LearnerHypothesis: there is none"};
-  for (const auto& one : hypotheses) {
-    const bool is_good = one.ability >= 0.5 && one.ability <= 1.0 && one.confirm_gain >= 0.0 &&
-                         one.correct_gain >= 0.0 && one.probability > 0.0;
+  for (const auto& hypothesis : hypotheses) {
+    const bool is_good = hypothesis.ability >= 0.5 && hypothesis.ability <= 1.0 && hypothesis.confirm_gain >= 0.0 &&
+                         hypothesis.correct_gain >= 0.0 && hypothesis.probability > 0.0;
     if (!is_good) throw std::invalid_argument{"LearnerHypothesis: one is out of range"};
   }
 }
@@ -65,7 +65,7 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
       cells_(hypotheses_.size()) {
   require_hypotheses(hypotheses_);
   double sum = 0.0;
-  for (const auto& one : hypotheses_) sum += one.probability;
+  for (const auto& hypothesis : hypotheses_) sum += hypothesis.probability;
   for (const auto& one : hypotheses_) {
     weights_.push_back(one.probability / sum);
     abilities_.push_back(one.ability);

@@ -67,7 +67,7 @@ MisconceptionBank::MisconceptionBank(const Atlas& atlas, const Options& options,
   const auto n = hypotheses.size();
   stands_for_ = n >= kMany && n % kFour == 0 ? kFour : 1;
   double sum = 0.0;
-  for (const auto& one : hypotheses) sum += one.probability;
+  for (const auto& hypothesis : hypotheses) sum += hypothesis.probability;
   others_ = NonLearners{beliefs_->after(0, 0, 0).belief()};
   const double learn = 1.0 - others_.weight();
   const double misconceived = constraints_.empty() ? 0.0 : options.misconceived;
@@ -94,10 +94,10 @@ KnownBelief& MisconceptionBank::belief(const People& people) const {
 void MisconceptionBank::let_some_stop() {
   double learn = 0.0;
   std::vector<double> right{1.0};
-  for (const auto& one : people_) {
-    if (!learns(one)) continue;
-    right = mixed(learn, right, one.weight, one.right);
-    learn += one.weight;
+  for (const auto& person : people_) {
+    if (!learns(person)) continue;
+    right = mixed(learn, right, person.weight, person.right);
+    learn += person.weight;
   }
   if (learn == 0.0) return;
   const double before = others_.weight();
@@ -125,16 +125,16 @@ void MisconceptionBank::observe(const Atlas& atlas, const ObservedPeriod& period
 
 void MisconceptionBank::weigh(const Atlas& atlas, const AnswerFit& fit) {
   double sum = 0.0, best = 0.0;
-  for (auto& one : people_) {
-    if (one.weight == 0.0 && one.likelihood == 0.0) continue;
+  for (auto& person : people_) {
+    if (person.weight == 0.0 && person.likelihood == 0.0) continue;
     auto& believed =
-        one.periods == kGoesOn ? beliefs_->answering(one.state, one.hypothesis, num_periods_) : belief(one);
+        person.periods == kGoesOn ? beliefs_->answering(person.state, person.hypothesis, num_periods_) : belief(person);
     const auto rating = believed.rating(atlas, fit);
-    one.weight *= rating.likelihood;
-    one.likelihood *= rating.likelihood;
-    one.right = convolved(one.right, rating.right);
-    sum += one.weight;
-    best = std::max(best, one.likelihood);
+    person.weight *= rating.likelihood;
+    person.likelihood *= rating.likelihood;
+    person.right = convolved(person.right, rating.right);
+    sum += person.weight;
+    best = std::max(best, person.likelihood);
   }
   others_.see_answers(fit);
   sum += others_.weight();
@@ -149,21 +149,21 @@ void MisconceptionBank::weigh(const Atlas& atlas, const AnswerFit& fit) {
 }
 
 void MisconceptionBank::mend() {
-  for (auto& one : people_) {
-    if (one.state == 0 || one.weight == 0.0) continue;
-    const double mended = mended_ * one.weight / static_cast<double>(stands_for_);
-    const auto first = one.hypothesis - stands_for_ / 2;
+  for (auto& person : people_) {
+    if (person.state == 0 || person.weight == 0.0) continue;
+    const double mended = mended_ * person.weight / static_cast<double>(stands_for_);
+    const auto first = person.hypothesis - stands_for_ / 2;
     for (std::size_t h = first; h < first + stands_for_; ++h) {
-      people_[h].right = mixed(people_[h].weight, people_[h].right, mended, one.right);
+      people_[h].right = mixed(people_[h].weight, people_[h].right, mended, person.right);
       people_[h].weight += mended;
     }
-    one.weight *= 1.0 - mended_;
+    person.weight *= 1.0 - mended_;
   }
 }
 
 double MisconceptionBank::probability_of_learning() const noexcept {
   double sum = 0.0;
-  for (const auto& one : people_) sum += one.periods == kGoesOn ? one.weight : 0.0;
+  for (const auto& person : people_) sum += person.periods == kGoesOn ? person.weight : 0.0;
   return sum;
 }
 
@@ -174,13 +174,13 @@ double MisconceptionBank::odds_against_stopping(std::span<const HalfSpace> half_
     return probability_of_enough(belief(one).mass_in(half_spaces), options);
   };
   double sum = 0.0, all = 0.0, often = 0.0;
-  for (const auto& one : people_) {
-    if (!learns(one)) continue;
-    const double prior = hypotheses[one.hypothesis].probability;
+  for (const auto& person : people_) {
+    if (!learns(person)) continue;
+    const double prior = hypotheses[person.hypothesis].probability;
     sum += prior;
-    if (one.likelihood == 0.0) continue;
-    all += prior * one.likelihood;
-    often += prior * one.likelihood * enough(one);
+    if (person.likelihood == 0.0) continue;
+    all += prior * person.likelihood;
+    often += prior * person.likelihood * enough(person);
   }
   if (!(all > 0.0)) return 0.0;
   double most = 0.0;
@@ -197,7 +197,7 @@ Agreement MisconceptionBank::agreement() const {
     if (weight == 0.0) return;
     for (std::size_t n = 0; n < some.size(); ++n) right[n] += weight * some[n];
   };
-  for (const auto& one : people_) add(one.weight, one.right);
+  for (const auto& person : people_) add(person.weight, person.right);
   for (const auto& state : others_.states()) add(state.weight, state.right);
   Agreement result{.tests = num_tests_, .right = num_right_};
   double squares = 0.0, fewer = 0.0, more = 0.0;
@@ -215,14 +215,14 @@ Agreement MisconceptionBank::agreement() const {
 
 double MisconceptionBank::probability_of_misconception(std::size_t j) const {
   double sum = 0.0;
-  for (const auto& one : people_) sum += one.state == j + 1 ? one.weight : 0.0;
+  for (const auto& person : people_) sum += person.state == j + 1 ? person.weight : 0.0;
   return sum;
 }
 
 std::vector<WeightedShare> MisconceptionBank::shares(std::span<const HalfSpace> half_spaces) const {
   std::vector<WeightedShare> result;
-  for (const auto& one : people_) {
-    if (one.weight >= kTooUnlikely) result.push_back({one.weight, belief(one).mass_in(half_spaces)});
+  for (const auto& person : people_) {
+    if (person.weight >= kTooUnlikely) result.push_back({person.weight, belief(person).mass_in(half_spaces)});
   }
   const auto others = others_.shares(half_spaces);
   result.insert(result.end(), others.begin(), others.end());
@@ -235,8 +235,8 @@ std::vector<std::vector<WeightedShare>> MisconceptionBank::shares_after(double a
   constexpr double kNearlyAll = 0.99;
   std::vector<const People*> order;
   double left = kNearlyAll - others_.weight();
-  for (const auto& one : people_) {
-    if (one.weight >= kTooUnlikely) order.push_back(&one);
+  for (const auto& person : people_) {
+    if (person.weight >= kTooUnlikely) order.push_back(&person);
   }
   std::stable_sort(order.begin(), order.end(), [](auto* a, auto* b) { return a->weight > b->weight; });
   std::vector<std::vector<WeightedShare>> result;
@@ -256,13 +256,13 @@ std::vector<std::vector<WeightedShare>> MisconceptionBank::shares_after(double a
 
 double MisconceptionBank::probability_of_violating(const HalfSpace& half_space) const {
   double all = 0.0;
-  for (const auto& one : shares({&half_space, 1})) all += one.weight * (1.0 - one.share);
+  for (const auto& share : shares({&half_space, 1})) all += share.weight * (1.0 - share.share);
   return std::max(0.0, all - others_.weight_of_guessing());
 }
 
 double MisconceptionBank::probability_of(std::span<const HalfSpace> half_spaces) const {
   double sum = 0.0;
-  for (const auto& one : shares(half_spaces)) sum += one.weight * one.share;
+  for (const auto& share : shares(half_spaces)) sum += share.weight * share.share;
   return sum;
 }
 
@@ -277,8 +277,8 @@ std::vector<Direction> MisconceptionBank::violators(const HalfSpace& constraint,
       masses.push_back(mass);
     }
   };
-  for (const auto& one : people_) {
-    if (one.weight >= kTooUnlikely) add(one.weight, belief(one).belief());
+  for (const auto& person : people_) {
+    if (person.weight >= kTooUnlikely) add(person.weight, belief(person).belief());
   }
   for (const auto& state : others_.states()) {
     if (state.belief) add(state.weight, *state.belief);

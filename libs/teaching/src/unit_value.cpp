@@ -33,9 +33,9 @@ UnitValue::UnitValue(TeachingCache& cache, std::size_t component,
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return tie_breaks[a] < tie_breaks[b]; });
   for (const auto i : order) {
     double sum = 0.0, largest = 0.0;
-    for (const auto& one : members[i]) {
-      sum += one.weight;
-      largest = std::max(largest, one.weight);
+    for (const auto& member : members[i]) {
+      sum += member.weight;
+      largest = std::max(largest, member.weight);
     }
     const bool counts = largest > 0.0;
     for (std::size_t h = 0; counts && h < members[i].size(); ++h) {

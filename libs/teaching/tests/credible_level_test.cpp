@@ -37,9 +37,9 @@ TEST(CredibleLevel, ContainsItsMean) {
   RandomStream random{3};
   for (int i = 0; i < 2000; ++i) {
     std::vector<WeightedShare> shares(1 + uniform_index(6, random));
-    for (auto& one : shares) {
-      one.weight = std::exp(-12.0 * uniform01(random));
-      one.share = uniform01(random) < 0.5 ? static_cast<double>(uniform_index(2, random)) : uniform01(random);
+    for (auto& share : shares) {
+      share.weight = std::exp(-12.0 * uniform01(random));
+      share.share = uniform01(random) < 0.5 ? static_cast<double>(uniform_index(2, random)) : uniform01(random);
     }
     const double coverage = 0.05 + 0.9 * uniform01(random);
     const auto level = credible_level(shares, {.coverage = coverage, .precision = 1.0 + 200.0 * uniform01(random)});

@@ -28,8 +28,8 @@ inline constexpr int kWordsFor = 0;
 /// How files name a value.
 template <typename Enum>
 [[nodiscard]] constexpr std::string_view word_for(Enum value) {
-  for (const auto& one : kWordsFor<Enum>) {
-    if (one.value == value) return one.word;
+  for (const auto& word : kWordsFor<Enum>) {
+    if (word.value == value) return word.word;
   }
   return {};
 }
@@ -89,8 +89,8 @@ ParameterValue to_parameter_value(const T& field) {
 template <typename T>
 void from_parameter_value(T& field, const ParameterValue& value) {
   if constexpr (std::is_enum_v<T>) {
-    for (const auto& one : kWordsFor<T>) {
-      if (one.word == std::get<std::string>(value)) field = one.value;
+    for (const auto& word : kWordsFor<T>) {
+      if (word.word == std::get<std::string>(value)) field = word.value;
     }
   } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
     field = static_cast<T>(std::get<std::int64_t>(value));
