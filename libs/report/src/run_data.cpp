@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kith/study/record_columns.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -53,12 +55,9 @@ class DataReader {
     std::size_t last = kNoTeam;
     data_.has_exam = run_.spec().exam != ExamLevel::kNone;
     data_.leads_with_exam = data_.has_exam && run_.domain.num_features() > 3;
-    const auto& variants = run_.study.variants;
-    data_.has_costs = std::any_of(variants.begin(), variants.end(), has_costs);
-    data_.has_forecasts =
-        std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.forecast_sessions > 0; });
-    data_.has_estimates =
-        std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.estimates; });
+    data_.has_costs = has_costs(run_.study);
+    data_.has_forecasts = has_forecasts(run_.study);
+    data_.has_estimates = has_estimates(run_.study);
     Names wanted{"completed", "periods", "knowledge", "area_sr", "demonstrations", "tests", "status"};
     const auto costs = wanted.size();
     if (data_.has_costs) wanted.insert(wanted.end(), {"minutes", "person_minutes"});
@@ -67,8 +66,7 @@ class DataReader {
     const auto ahead = wanted.size();
     if (data_.has_forecasts)
       wanted.insert(wanted.end(), {"forecast_periods", "forecast_periods_low", "forecast_periods_high"});
-    const bool has_beliefs =
-        std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.beliefs; });
+    const bool has_beliefs = has_belief_quality(run_.study);
     const auto particles = wanted.size();
     if (has_beliefs) wanted.emplace_back("fewest_particles");
     const auto rows = read_table("teams.csv", wanted, [&](const auto& row) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <deque>
 
+#include "kith/study/record_columns.hpp"
 #include "kith/table/csv_writer.hpp"
-#include "table_columns.hpp"
 
 namespace kith {
 namespace {
-
-std::int64_t count(std::size_t n) { return static_cast<std::int64_t>(n); }
 
 std::string blank_separated(const IntegerVector& v) {
   std::string text;
@@ -31,222 +30,266 @@ std::string counts_text(const IntegerVector& counts, std::int64_t scale) {
   return text;
 }
 
-std::string text_of(const std::vector<HalfSpace>& half_spaces) {
+// What a cell shows of a member of a record.
+template <typename Value>
+const Value& shown(const Value& value, const Study& /*study*/) {
+  return value;
+}
+std::string_view shown(const char& letter, const Study& /*study*/) { return {&letter, 1}; }
+std::string_view shown(const SessionStatus& status, const Study& /*study*/) { return name_of(status); }
+std::string shown(const std::vector<HalfSpace>& half_spaces, const Study& /*study*/) {
   std::string text;
   for (const auto& half_space : half_spaces) text += (text.empty() ? "" : ";") + blank_separated(half_space.normal());
   return text;
 }
+std::optional<std::string> shown(const std::optional<IntegerVector>& counts, const Study& study) {
+  if (!counts) return std::nullopt;
+  return counts_text(*counts, study.variants.front().count_scale);
+}
 
-class Tables {
+// A row of a table: a record, and where its team stands in the design.
+template <typename Record>
+struct RowOf {
+  const TeamAddress& address;
+  const Record& record;
+};
+
+// Makes the columns of a table from what declare() says of a record. The record is that of the row or a part of it,
+// which `Find` looks up in the row: null where the row has none.
+template <typename Row, typename Find>
+class RecordColumns {
  public:
-  Tables(const Study& study, const TableSink& sink) : study_{study}, has_{optional_columns(study)} {
-    for (auto& table : study_tables(study)) {
-      if (table.file == "exam.csv") exam_ = writers_.size();
-      if (table.file == "estimates.csv") estimates_ = writers_.size();
-      writers_.emplace_back(std::move(table.columns),
-                            [sink, file = table.file](std::string_view piece) { sink(file, piece); });
+  RecordColumns(TableOf<Row>& table, const Study& study, Find find, bool is_required)
+      : table_{table}, study_{study}, find_{std::move(find)}, is_required_{is_required} {}
+
+  template <typename Value, typename Record>
+  void column(Value Record::*member, const ColumnWords& words, const RecordColumn& options = {}) {
+    if constexpr (std::same_as<Value, std::size_t>) {
+      if (options.zero_is_missing) {
+        return derived(
+            [member](const Record& record) {
+              const auto number = record.*member;
+              return number == 0 ? std::nullopt : std::optional{number};
+            },
+            words, options);
+      }
+    }
+    derived([member, &study = study_](const Record& record) -> decltype(auto) { return shown(record.*member, study); },
+            words, options);
+  }
+
+  template <typename Function>
+  void derived(Function function, const ColumnWords& words, const RecordColumn& options = {}) {
+    if (options.when != nullptr && !options.when(study_)) return;
+    using Record = std::remove_cvref_t<decltype(*find_(std::declval<const Row&>()))>;
+    using Value = std::remove_cvref_t<std::invoke_result_t<const Function&, const Record&>>;
+    using Held = detail::CellType<Value>;
+    // Texts are only looked at.
+    using Type = std::conditional_t<std::is_reference_v<std::invoke_result_t<const Function&, const Record&>> &&
+                                        std::same_as<typename Held::Type, std::string>,
+                                    std::string_view, typename Held::Type>;
+    const auto cell = [find = find_, function](const Row& row) -> std::optional<Type> {
+      const Record* record = find(row);
+      if (record == nullptr) return std::nullopt;
+      return std::invoke(function, *record);
+    };
+    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
+    table_.column(cell, words, {.required = required, .before = options.before});
+  }
+
+  template <typename Values, typename Record>
+  void columns(Values Record::*member, std::vector<Column> (*list)(const Study&)) {
+    std::size_t i = 0;
+    for (const auto& column : list(study_)) {
+      derived([member, i](const Record& record) { return (record.*member).at(i); },
+              {column.name, column.description, column.unit, column.kind});
+      ++i;
     }
   }
 
-  void add(const TeamRecord& team) {
-    add_team(team);
-    for (const auto& learner : team.learners) add_learner(team, learner);
-    for (const auto& period : team.period_records) add_period(team, period);
-    for (const auto& response : team.responses) add_response(team, response);
-    for (const auto& demonstration : team.demonstration_records) add_demonstration(team, demonstration);
-    for (const auto& progress : team.progress) add_progress(team, progress);
-    for (const auto& belief : team.beliefs) add_belief(team, belief);
-    for (const auto& exam : team.exams) add_exam(team, exam);
-    for (const auto& estimate : team.estimates) add_estimate(team, estimate);
+  template <typename Part, typename Record>
+  void part(Part Record::*member, const RecordColumn& options = {}) {
+    if (options.when != nullptr && !options.when(study_)) return;
+    using Held = detail::CellType<Part>;
+    const auto find = [outer = find_, member](const Row& row) -> const typename Held::Type* {
+      const Record* record = outer(row);
+      if (record == nullptr) return nullptr;
+      if constexpr (Held::is_optional) {
+        return record->*member ? &*(record->*member) : nullptr;
+      } else {
+        return &(record->*member);
+      }
+    };
+    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
+    RecordColumns<Row, decltype(find)> fields{table_, study_, find, required};
+    declare(fields, Declared<typename Held::Type>{});
   }
 
-  void flush() {
-    for (auto& writer : writers_) writer.flush();
+  template <typename Value, typename Record>
+  void kept(Value Record::* /*member*/, int /*since*/ = 0) {}
+
+  void traits(std::vector<double> LearnerRecord::*member) {
+    for (const auto& column : trait_columns(study_)) {
+      const auto value = [member, name = column.name, &study = study_](const Row& row) -> std::optional<double> {
+        const auto& type = learner_type(study.variants.at(row.address.variant), row.record.type);
+        const auto& traits = type.model->traits;
+        const auto found =
+            std::find_if(traits.begin(), traits.end(), [&](const auto& one) { return one.name == name; });
+        if (found == traits.end()) return std::nullopt;
+        return (row.record.*member).at(static_cast<std::size_t>(found - traits.begin()));
+      };
+      table_.column(value, {column.name, column.description}, {.required = column.required});
+    }
   }
 
  private:
-  CsvWriter& begin_row(std::size_t table, const TeamAddress& address) {
-    auto& writer = writers_[table];
-    writer.text(address.strategy).text(std::string_view{address.composition});
-    for (const auto& factor : study_.variants.at(address.variant).factors) writer.text(std::string_view{factor.value});
-    return writer.integer(count(address.replicate)).integer(count(address.team));
-  }
-
-  void add_team(const TeamRecord& team) {
-    auto& row = begin_row(0, team.address);
-    row.text(std::string_view{team.seed_address})
-        .text(name_of(team.status))
-        .boolean(team.completed())
-        .integer(count(team.periods))
-        .integer(count(team.demonstrations))
-        .integer(count(team.tests))
-        .real(team.knowledge)
-        .real(team.knowledge_min)
-        .integer(count(team.components_learned))
-        .integer(count(team.components_skipped))
-        .real(team.area_sr);
-    if (has_.costs) {
-      row.integer(count(team.cost.person_periods)).real(team.cost.minutes).real(team.cost.person_minutes);
-    }
-    if (has_.forecasts) add_forecast(row, team.forecast);
-    if (has_.beliefs) row.real(team.fewest_particles);
-    if (team.exam) {
-      row.real(team.exam->share_right).real(team.exam->regret).real(team.exam->worst_share_right);
-    }
-    row.end_row();
-  }
-
-  static void add_forecast(CsvWriter& row, const std::optional<TeamForecast>& forecast) {
-    for (const auto value : {&TeamForecast::periods, &TeamForecast::periods_low, &TeamForecast::periods_high,
-                             &TeamForecast::minutes, &TeamForecast::minutes_low, &TeamForecast::minutes_high}) {
-      row.real(forecast ? std::optional{(*forecast).*value} : std::nullopt);
-    }
-  }
-
-  void add_learner(const TeamRecord& team, const LearnerRecord& learner) {
-    auto& row = begin_row(1, team.address).integer(count(learner.member)).text(std::string_view{&learner.type, 1});
-    const auto& traits = learner_type(study_.variants.at(team.address.variant), learner.type).model->traits;
-    for (const auto& name : has_.traits) row.real(trait(name, traits, learner.traits));
-    row.real(learner.p_bec)
-        .integer(count(learner.periods))
-        .integer(count(learner.tests))
-        .integer(count(learner.correct));
-    if (team.exam) {
-      row.real(learner.exam_share_right)
-          .real(learner.exam_regret)
-          .integer(count(learner.exam_questions))
-          .integer(count(learner.exam_correct));
-    }
-    row.end_row();
-  }
-
-  [[nodiscard]] static std::optional<double> trait(const std::string& name, std::span<const LearnerTrait> traits,
-                                                   const std::vector<double>& values) {
-    const auto found = std::find_if(traits.begin(), traits.end(), [&](const auto& one) { return one.name == name; });
-    if (found == traits.end()) return std::nullopt;
-    return values.at(static_cast<std::size_t>(found - traits.begin()));
-  }
-
-  void add_period(const TeamRecord& team, const PeriodRecord& period) {
-    auto& writer = begin_row(2, team.address);
-    if (has_.subgroups) writer.integer(count(period.session));
-    writer.integer(count(period.period))
-        .integer(count(period.component))
-        .text(std::string_view{period.source})
-        .integer(count(period.demonstrations))
-        .real(period.area_sr)
-        .real(period.running_area_sr)
-        .integer(count(period.tests))
-        .boolean(period.all_correct)
-        .integer(count(period.excluded))
-        .integer(count(period.untested))
-        .real(period.gain);
-    if (has_.costs) writer.integer(count(period.members));
-    if (has_.forecasts) {
-      const auto& ahead = period.forecast;
-      writer.real(ahead ? std::optional{ahead->periods_left} : std::nullopt);
-      for (std::size_t k = 0; k < 3; ++k) writer.real(ahead ? std::optional{ahead->done_within.at(k)} : std::nullopt);
-    }
-    if (has_.estimates) {
-      writer.real(period.mastery ? std::optional{period.mastery->predicted} : std::nullopt);
-      writer.real(period.mastery ? period.mastery->actual : std::nullopt);
-    }
-    for (const double p_bec : period.p_bec) writer.real(p_bec);
-    writer.end_row();
-  }
-
-  void add_response(const TeamRecord& team, const ResponseRecord& response) {
-    const auto answer = response.answer
-                            ? std::optional{counts_text(*response.answer, study_.variants.front().count_scale)}
-                            : std::nullopt;
-    begin_row(3, team.address)
-        .integer(count(response.period))
-        .integer(count(response.component))
-        .integer(count(response.test))
-        .integer(count(response.member))
-        .integer(count(response.mdp))
-        .integer(count(response.start))
-        .boolean(response.correct)
-        .real(response.regret)
-        .text_or_missing(answer)
-        .text(std::string_view{text_of(response.constraints)})
-        .text(std::string_view{text_of(response.covered)})
-        .end_row();
-  }
-
-  void add_demonstration(const TeamRecord& team, const DemonstrationRecord& shown) {
-    begin_row(4, team.address)
-        .integer(count(shown.period))
-        .integer(shown.member == 0 ? std::nullopt : std::optional{count(shown.member)})
-        .integer(count(shown.component))
-        .integer(count(shown.demonstration))
-        .integer(count(shown.mdp))
-        .integer(count(shown.start))
-        .text(std::string_view{text_of(shown.constraints)})
-        .end_row();
-  }
-
-  void add_progress(const TeamRecord& team, const ProgressRecord& progress) {
-    begin_row(5, team.address)
-        .integer(count(progress.period))
-        .integer(count(progress.component))
-        .integer(count(progress.member))
-        .text(std::string_view{&progress.type, 1})
-        .real(progress.ability)
-        .real(progress.p_bec)
-        .boolean(progress.all_correct)
-        .end_row();
-  }
-
-  void add_belief(const TeamRecord& team, const BeliefSnapshot& belief) {
-    for (std::size_t i = 0; i < belief.weights.size(); ++i) {
-      auto& row = begin_row(6, team.address)
-                      .integer(count(belief.period))
-                      .text(std::string_view{belief.belief})
-                      .integer(count(i + 1));
-      for (std::size_t at = i; at < belief.points.size(); at += belief.weights.size()) row.real(belief.points[at]);
-      row.real(belief.weights[i]).end_row();
-    }
-  }
-
-  // Of what is about a member: over all components if the record's component is 0.
-  template <typename Record>
-  CsvWriter& begin_member_row(std::size_t table, const TeamAddress& address, const Record& record) {
-    return begin_row(table, address)
-        .integer(count(record.period))
-        .integer(record.component == 0 ? std::nullopt : std::optional{count(record.component)})
-        .integer(count(record.member))
-        .text(std::string_view{&record.type, 1});
-  }
-
-  void add_exam(const TeamRecord& team, const ExamRecord& exam) {
-    begin_member_row(exam_, team.address, exam).real(exam.share_right).real(exam.regret).real(exam.p_bec).end_row();
-  }
-
-  void add_estimate(const TeamRecord& team, const EstimateRecord& estimate) {
-    const auto word =
-        estimate.p_proficient ? std::optional{std::string{proficiency_word(*estimate.p_proficient)}} : std::nullopt;
-    begin_member_row(estimates_, team.address, estimate)
-        .real(estimate.ability)
-        .real(estimate.ability_mean)
-        .real(estimate.ability_low)
-        .real(estimate.ability_high)
-        .real(estimate.p_proficient)
-        .text_or_missing(word)
-        .real(estimate.p_knew)
-        .real(estimate.knew)
-        .real(estimate.p_right)
-        .real(estimate.right)
-        .end_row();
-  }
-
+  TableOf<Row>& table_;
   const Study& study_;
-  OptionalColumns has_;
-  std::vector<CsvWriter> writers_;        // in the order of study_tables()
-  std::size_t exam_ = 0, estimates_ = 0;  // positions of tables that are not always there
+  Find find_;
+  bool is_required_;
 };
 
+// A table without the columns of its rows: what every table begins with, where a team stands in the design.
+template <typename Row>
+TableOf<Row> keyed_table(const Study& study, const char* file, const char* description) {
+  TableOf<Row> table{file, description};
+  table.column([](const Row& row) -> std::string_view { return row.address.strategy; },
+               {columns::kStrategy, "How the team was taught."});
+  table.column([](const Row& row) -> std::string_view { return row.address.composition; },
+               {columns::kComposition, "The members' learner types, one letter each."});
+  for (std::size_t i = 0; i < study.variants.front().factors.size(); ++i) {
+    table.column(
+        [&study, i](const Row& row) -> std::string_view {
+          return study.variants.at(row.address.variant).factors[i].value;
+        },
+        {study.variants.front().factors[i].key, "Setting of this key of the study file, which varies in the study."});
+  }
+  table.column([](const Row& row) { return row.address.replicate; },
+               {columns::kReplicate, "Number of the team in its cell, from 1."});
+  table.column([](const Row& row) { return row.address.team; },
+               columns::identifier(columns::kTeam, "Number of the team in the study, from 1."));
+  return table;
+}
+
+template <typename Record>
+TableOf<RowOf<Record>> record_table(const Study& study, const char* file, const char* description) {
+  using Row = RowOf<Record>;
+  auto table = keyed_table<Row>(study, file, description);
+  const auto find = [](const Row& row) { return &row.record; };
+  RecordColumns<Row, decltype(find)> fields{table, study, find, true};
+  declare(fields, Declared<Record>{});
+  return table;
+}
+
+// A row of particles.csv.
+struct ParticleRow {
+  const TeamAddress& address;
+  const BeliefSnapshot& belief;
+  std::size_t particle;
+};
+
+// x, y, z in space; w1, w2, ... elsewhere.
+void add_directions(TableOf<ParticleRow>& table, std::size_t num_features) {
+  constexpr std::array kNames{"x", "y", "z"};
+  constexpr std::array kWords{"First entry of a direction of reward weights, at length 1.", "Second entry.",
+                              "Third entry."};
+  const bool is_in_space = num_features == kNames.size();
+  for (std::size_t k = 0; k < num_features; ++k) {
+    const auto number = std::to_string(k + 1);
+    const auto name = is_in_space ? kNames.at(k) : "w" + number;
+    const auto words =
+        is_in_space ? kWords.at(k) : "Entry " + number + " of a direction of reward weights, at length 1.";
+    table.column(
+        [k](const ParticleRow& row) { return row.belief.points[k * row.belief.weights.size() + row.particle]; },
+        {name, words});
+  }
+}
+
+TableOf<ParticleRow> particle_table(const Study& study) {
+  using Row = ParticleRow;
+  auto table = keyed_table<Row>(study, "particles.csv", "One row per particle, belief and period.");
+  table.column([](const Row& row) { return row.belief.period; },
+               {columns::kPeriod, "Number of the period at whose end the belief was this."});
+  table.column(
+      [](const Row& row) -> std::string_view { return row.belief.belief; },
+      {"belief", "Whose: 'own N' (of member N), 'teacher N' (the teacher's about member N), 'common' or 'joint'."});
+  table.column([](const Row& row) { return row.particle + 1; }, {"particle", "Number of the particle, from 1."});
+  add_directions(table, study.variants.front().num_features);
+  table.column([](const Row& row) { return row.belief.weights[row.particle]; },
+               {"weight", "Weight of the particle; those of a belief sum to 1."});
+  return table;
+}
+
+// A table of a study, and how it writes the rows of a team.
+struct StudyTable {
+  TableDescription description;
+  std::function<void(CsvWriter& writer, const TeamRecord& team)> write;
+};
+
+template <typename Record>
+StudyTable list_table(const Study& study, std::vector<Record> TeamRecord::*list, const char* file,
+                      const char* description) {
+  auto table = record_table<Record>(study, file, description);
+  auto text = table.description();
+  return {std::move(text), [table = std::move(table), list](CsvWriter& writer, const TeamRecord& team) {
+            for (const auto& record : team.*list) table.write(writer, {team.address, record});
+          }};
+}
+
+StudyTable team_table(const Study& study) {
+  auto table = record_table<TeamRecord>(study, "teams.csv", "One row per team.");
+  auto text = table.description();
+  return {std::move(text), [table = std::move(table)](CsvWriter& writer, const TeamRecord& team) {
+            table.write(writer, {team.address, team});
+          }};
+}
+
+StudyTable belief_table(const Study& study) {
+  auto table = particle_table(study);
+  auto text = table.description();
+  return {std::move(text), [table = std::move(table)](CsvWriter& writer, const TeamRecord& team) {
+            for (const auto& belief : team.beliefs) {
+              for (std::size_t i = 0; i < belief.weights.size(); ++i) table.write(writer, {team.address, belief, i});
+            }
+          }};
+}
+
+// In the order in which they are written. The study must outlive them.
+std::vector<StudyTable> tables_of(const Study& study) {
+  using R = TeamRecord;
+  std::vector<StudyTable> tables;
+  tables.push_back(team_table(study));
+  tables.push_back(list_table(study, &R::learners, "learners.csv", "One row per member of a team."));
+  tables.push_back(list_table(study, &R::period_records, "periods.csv",
+                              "One row per interaction period; none if only teams are recorded."));
+  tables.push_back(list_table(study, &R::responses, "responses.csv",
+                              "One row per member and test; none if only teams are recorded."));
+  tables.push_back(list_table(study, &R::demonstration_records, "demonstrations.csv",
+                              "One row per demonstration shown; none if only teams are recorded."));
+  tables.push_back(list_table(study, &R::progress, "progress.csv",
+                              "One row per member and period; none if only teams are recorded."));
+  if (study.variants.front().record == RecordLevel::kParticles) tables.push_back(belief_table(study));
+  if (has_exam(study)) {
+    tables.push_back(list_table(study, &R::exams, "exam.csv",
+                                "One row per exam of a member, over all starts and over those of every component."));
+  }
+  if (has_estimates(study)) {
+    tables.push_back(list_table(study, &R::estimates, "estimates.csv",
+                                "What the teacher can tell from the answers, beside the truth: one row about each "
+                                "member, and one about each member and component, per period."));
+  }
+  return tables;
+}
+
 }  // namespace
+
+std::vector<TableDescription> study_tables(const Study& study) {
+  std::vector<TableDescription> descriptions;
+  for (auto& table : tables_of(study)) descriptions.push_back(std::move(table.description));
+  return descriptions;
+}
+
+std::string study_codebook(const Study& study, const std::string& run) { return codebook(study_tables(study), run); }
 
 void write_study_tables(const Study& study, std::span<const TeamRecord> teams, const TableSink& sink) {
   write_study_tables(
@@ -258,9 +301,16 @@ void write_study_tables(const Study& study, std::span<const TeamRecord> teams, c
 }
 
 void write_study_tables(const Study& study, const TeamSource& teams, const TableSink& sink) {
-  Tables tables{study, sink};
-  teams([&](const TeamRecord& team) { tables.add(team); });
-  tables.flush();
+  const auto tables = tables_of(study);
+  std::deque<CsvWriter> writers;
+  for (const auto& table : tables) {
+    writers.emplace_back(table.description.columns,
+                         [&sink, &table](std::string_view piece) { sink(table.description.file, piece); });
+  }
+  teams([&](const TeamRecord& team) {
+    for (std::size_t i = 0; i < tables.size(); ++i) tables[i].write(writers[i], team);
+  });
+  for (auto& writer : writers) writer.flush();
 }
 
 }  // namespace kith

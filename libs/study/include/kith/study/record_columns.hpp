@@ -1,0 +1,349 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "kith/study/records.hpp"
+#include "kith/study/study.hpp"
+#include "kith/table/column_names.hpp"
+#include "kith/table/table_of.hpp"
+
+/// What is recorded of a team, one line per member of a record: from it come the column of the table, its entry in the
+/// codebook and its place in the journal. `declare(fields, Declared<Record>{})` tells `fields` about the record:
+///
+///   fields.column(member, words, options)  a member that the journal keeps and a column shows
+///   fields.columns(member, list, options)  a member that the journal keeps, with one column per value
+///   fields.derived(function, words)        a column that follows from others; the journal does not keep it
+///   fields.part(member, options)           a member that is a record with lines of its own, or an optional one
+///   fields.kept(member, since)             a member that only the journal keeps, such as the rows of other tables
+///   fields.traits(member)                  the traits of a person, as their learner model names them
+///
+/// The order of the lines is that of the journal, and of the table but for RecordColumn::before.
+namespace kith {
+
+template <typename Record>
+struct Declared {};
+
+/// What is seldom said of a member. Functions may be null.
+struct RecordColumn {
+  bool (*when)(const Study&) = nullptr;      ///< Whether the study's tables have the column; null: always.
+  bool (*required)(const Study&) = nullptr;  ///< Whether every row has a value; null: unless the member is optional.
+  bool zero_is_missing = false;
+  std::string_view before{};  ///< The column that it stands in front of, if the table has that.
+  int since = 0;  ///< The first layout of the journal with this member: one more than the highest one so far.
+};
+
+// Which columns a study has.
+[[nodiscard]] bool has_exam(const Study& study);
+[[nodiscard]] bool has_costs(const Study& study);
+[[nodiscard]] bool has_forecasts(const Study& study);
+[[nodiscard]] bool has_estimates(const Study& study);
+[[nodiscard]] bool has_belief_quality(const Study& study);
+[[nodiscard]] bool has_subgroups(const Study& study);
+/// Whether the learner models of all types have an ability.
+[[nodiscard]] bool all_have_ability(const Study& study);
+/// Of the mass of every rule's belief, in the order of StudySpec::teaching.rules.
+[[nodiscard]] std::vector<Column> rule_columns(const Study& study);
+/// Of what describes a person, by any model of the study; missing for people of models that do not have it.
+[[nodiscard]] std::vector<Column> trait_columns(const Study& study);
+[[nodiscard]] std::vector<Column> forecast_done_columns(const Study& study);
+
+namespace columns {
+
+inline constexpr ColumnWords kOfPeriod{kPeriod, "Number of the period, from 1; for the baseline within the member."};
+inline constexpr ColumnWords kOfComponent{kComponent, "Number of the knowledge component, from 1."};
+inline constexpr auto kOfMember = identifier(kMember, "Number of the member, from 1.");
+inline constexpr ColumnWords kOfType{kType, "Letter of the learner type."};
+inline constexpr ColumnWords kOfStart{kStart, "Number of the start state in the MDP, from 0."};
+
+}  // namespace columns
+
+template <typename Fields>
+void declare(Fields& fields, Declared<LearnerRecord>) {
+  using R = LearnerRecord;
+  using columns::measure, columns::count;
+  fields.column(&R::member, columns::kOfMember);
+  fields.column(&R::type, columns::kOfType);
+  fields.traits(&R::traits);
+  fields.column(&R::p_bec, {columns::kBelief, "Mass of the final belief in the policy's behaviour equivalence class."});
+  fields.column(&R::periods, count(columns::kPeriods, "Periods the member took part in."));
+  fields.column(&R::tests, count(columns::kTests, "Tests the member was asked."));
+  fields.column(&R::correct, {columns::kCorrect, "Tests answered correctly."});
+  fields.column(
+      &R::exam_share_right,
+      measure(columns::kExamShareRight, "Share of all starts where the member predicts the robot, at the end."),
+      {.when = has_exam});
+  fields.column(
+      &R::exam_regret,
+      measure(columns::kExamRegret, "What these predictions lose, in the units of the domain file's weights."),
+      {.when = has_exam});
+  fields.column(&R::exam_questions,
+                {"exam_questions", "Questions of the exam about starts that were neither shown nor tested."},
+                {.when = has_exam});
+  fields.column(&R::exam_correct, {"exam_correct", "Of these, answered correctly."}, {.when = has_exam});
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<ExamRecord>) {
+  using R = ExamRecord;
+  using columns::measure;
+  fields.column(&R::period,
+                {columns::kPeriod, "Number of the period after which the exam took place; 0 before the first."});
+  fields.column(&R::component,
+                {columns::kComponent,
+                 "Number of the knowledge component whose starts the exam is about; missing for all starts."},
+                {.zero_is_missing = true});
+  fields.column(&R::member, columns::kOfMember);
+  fields.column(&R::type, columns::kOfType);
+  fields.column(&R::share_right,
+                measure(columns::kShareRight, "Expected share of the starts where the member predicts the robot."));
+  fields.column(&R::regret, measure(columns::kRegret,
+                                    "Expected loss of the member's predictions against the robot's paths, in the units "
+                                    "of the domain file's weights."));
+  fields.column(&R::p_bec, {columns::kBelief,
+                            "Mass of the member's belief in the policy's behaviour equivalence class; for all starts "
+                            "only."});
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<EstimateRecord>) {
+  using R = EstimateRecord;
+  using columns::measure;
+  fields.column(&R::period,
+                {columns::kPeriod, "Number of the period after which these are the estimates; 0 before the first."});
+  fields.column(&R::component,
+                {columns::kComponent, "Number of the knowledge component; missing in the row about the person."},
+                {.zero_is_missing = true});
+  fields.column(&R::member, columns::kOfMember);
+  fields.column(&R::type, columns::kOfType);
+  fields.column(&R::ability,
+                measure(columns::kAbility,
+                        "True ability with which the member learns when a component begins, after ability_scale. In "
+                        "the row of the person only."));
+  fields.column(&R::ability_mean,
+                measure(columns::kAbilityMean,
+                        "The teacher's estimate of this ability: posterior mean. In the row of the person only."));
+  fields.column(&R::ability_low, measure(columns::kAbilityLow,
+                                         "Lower limit of the central 80 % of the posterior. In the row of the person "
+                                         "only."));
+  fields.column(&R::ability_high, measure(columns::kAbilityHigh,
+                                          "Upper limit of the central 80 % of the posterior. In the row of the person "
+                                          "only."));
+  fields.column(&R::p_proficient,
+                measure("p_proficient",
+                        "Posterior probability that the ability is at least record.proficient_ability. In the row of "
+                        "the person only."));
+  fields.derived(
+      [](const R& record) {
+        return record.p_proficient ? std::optional{proficiency_word(*record.p_proficient)} : std::nullopt;
+      },
+      {columns::kProficiency,
+       "'proficient' if p_proficient is at least 0.8, 'not proficient' if it is at most 0.2, else 'cannot tell yet'. "
+       "In the row of the person only."});
+  fields.column(&R::p_knew, measure("p_knew",
+                                    "Posterior probability that the member knew the component before the first lesson; "
+                                    "with teacher.hypotheses = \"known-components\". In the rows of components only."));
+  fields.column(&R::knew, measure("knew",
+                                  "Mass of the member's belief before the first lesson in the component's constraints; "
+                                  "where p_knew is. In the rows of components only."));
+  fields.column(&R::p_right, measure("p_right",
+                                     "Predicted probability that the member answers a random test of the component "
+                                     "correctly. In the rows of components only."));
+  fields.column(&R::right, measure("right",
+                                   "The same probability under the member's own belief. In the rows of components "
+                                   "only."));
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<PeriodForecast>) {
+  using R = PeriodForecast;
+  fields.column(&R::periods_left,
+                columns::measure("forecast_periods_left", "Periods left, as expected after this one: mean."));
+  fields.columns(&R::done_within, forecast_done_columns);
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<PeriodMastery>) {
+  using R = PeriodMastery;
+  fields.column(&R::predicted, columns::measure(columns::kPredictedMastery,
+                                                "Predicted probability that all members who took part answer a random "
+                                                "test of the component correctly, after the feedback."));
+  fields.column(&R::actual,
+                columns::measure(columns::kMastery, "The same probability under the members' own beliefs."));
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<PeriodRecord>) {
+  using R = PeriodRecord;
+  fields.column(&R::period, columns::kOfPeriod);
+  fields.kept(&R::member);
+  fields.column(&R::session, {columns::kSession, "Number of the team's session, from 1."},
+                {.when = has_subgroups, .before = columns::kPeriod});
+  fields.kept(&R::members);
+  fields.column(&R::component, columns::kOfComponent);
+  fields.column(&R::source, {"source", "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."});
+  fields.column(&R::demonstrations, columns::count(columns::kDemonstrations, "Demonstrations shown."));
+  fields.column(&R::area_sr,
+                {columns::kAreaSr, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"});
+  fields.column(&R::running_area_sr, {"running_area_sr",
+                                      "The same together with the components learned before; what earlier lessons of "
+                                      "this component taught does not count.",
+                                      "sr"});
+  fields.column(&R::tests, columns::count(columns::kTests, "Tests asked of every member."));
+  fields.column(&R::all_correct, {"all_correct", "Whether every member answered every test correctly."});
+  fields.column(&R::excluded, {"excluded", "Members left out of the common belief because their answers conflict."});
+  fields.column(&R::untested, {"untested", "Taught constraints that nothing can test."});
+  fields.column(&R::gain, {"gain",
+                           "Logarithm of the area of what was learned before (the prior and the components learned) "
+                           "over running_area_sr; 0 if a lesson is shown again."});
+  fields.derived(&R::members, {columns::kMembers, "Members who took part."}, {.when = has_costs});
+  fields.part(&R::forecast, {.when = has_forecasts});
+  fields.part(&R::mastery, {.when = has_estimates});
+  fields.columns(&R::p_bec, rule_columns);
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<BeliefSnapshot>) {
+  using R = BeliefSnapshot;
+  fields.kept(&R::period);
+  fields.kept(&R::belief);
+  fields.kept(&R::points);
+  fields.kept(&R::weights);
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<DemonstrationRecord>) {
+  using R = DemonstrationRecord;
+  fields.column(&R::period, columns::kOfPeriod);
+  fields.column(&R::member,
+                columns::identifier(columns::kMember, "Who watched, for the baseline; missing if everybody did."),
+                {.zero_is_missing = true});
+  fields.column(&R::component, columns::kOfComponent);
+  fields.column(&R::demonstration, {"demonstration", "Number of the demonstration in the period, from 1."});
+  fields.column(&R::mdp, {columns::kMdp, "Number of the MDP, from 0."});
+  fields.column(&R::start, columns::kOfStart);
+  fields.column(
+      &R::constraints,
+      {columns::kConstraint, "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'."});
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<ResponseRecord>) {
+  using R = ResponseRecord;
+  fields.column(&R::period, columns::kOfPeriod);
+  fields.column(&R::component, columns::kOfComponent);
+  fields.column(&R::test, {columns::kTest, "Number of the test in the period, from 1."});
+  fields.column(&R::member, columns::kOfMember);
+  fields.column(&R::mdp, {columns::kMdp, "Number of the MDP of the test, from 0."});
+  fields.column(&R::start, columns::kOfStart);
+  fields.column(&R::correct, {columns::kCorrect, "Whether the answer is as good as the robot's path."});
+  fields.column(&R::regret,
+                {columns::kRegret, "Return of the robot's path minus that of the answer; missing without an answer."});
+  fields.column(
+      &R::answer,
+      {"answer", "Feature counts of the answer, or expectations of them, separated by blanks; missing without one."});
+  fields.column(&R::constraints,
+                {columns::kConstraint,
+                 "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'."});
+  fields.column(&R::covered, {"covered", "Half-spaces that the test examines and that its feedback teaches."});
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<ProgressRecord>) {
+  using R = ProgressRecord;
+  fields.column(&R::period, columns::kOfPeriod);
+  fields.column(&R::component, columns::kOfComponent);
+  fields.column(&R::member, columns::kOfMember);
+  fields.column(&R::type, columns::kOfType);
+  fields.column(&R::ability, {columns::kAbility, "Ability while watching the demonstrations, before ability_scale."},
+                {.required = all_have_ability});
+  fields.column(&R::p_bec, {columns::kBelief,
+                            "Mass of the member's own belief in the policy's behaviour equivalence class, after the "
+                            "feedback."});
+  fields.column(&R::all_correct, {"all_correct", "Whether the member answered every test of the period correctly."});
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<TeamCost>) {
+  using R = TeamCost;
+  fields.column(&R::person_periods, {"person_periods", "Periods that members took part in, summed over members."});
+  fields.column(&R::minutes,
+                columns::measure(columns::kMinutes, "Teaching time by the study's pace, summed over sessions.", "min"));
+  fields.column(&R::person_minutes,
+                columns::measure(columns::kPersonMinutes, "Time of the members, summed over members.", "min"));
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<TeamForecast>) {
+  using R = TeamForecast;
+  using columns::measure;
+  constexpr auto* kLow = "Lower limit of the central 80 % of the forecast.";
+  constexpr auto* kHigh = "Upper limit of the central 80 % of the forecast.";
+  fields.column(&R::periods, measure(columns::kForecastPeriods, "Expected periods, before the first lesson: mean."));
+  fields.column(&R::periods_low, measure(columns::kForecastPeriodsLow, kLow));
+  fields.column(&R::periods_high, measure(columns::kForecastPeriodsHigh, kHigh));
+  fields.column(&R::minutes, measure("forecast_minutes", "Expected minutes, before the first lesson: mean.", "min"));
+  fields.column(&R::minutes_low, measure("forecast_minutes_low", kLow, "min"));
+  fields.column(&R::minutes_high, measure("forecast_minutes_high", kHigh, "min"));
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<TeamExam>) {
+  using R = TeamExam;
+  using columns::measure;
+  fields.column(&R::share_right, measure(columns::kExamShareRight,
+                                         "Share of all starts of the domain where members predict the robot, under "
+                                         "their final beliefs; mean over members."));
+  fields.column(&R::regret, measure(columns::kExamRegret,
+                                    "What the members' predictions lose against the robot's paths, over all starts; "
+                                    "mean over members, in the units of the domain file's weights."));
+  fields.column(&R::worst_share_right, measure(columns::kExamWorstShareRight, "The smallest share_right of a member."));
+}
+
+template <typename Fields>
+void declare(Fields& fields, Declared<TeamRecord>) {
+  using R = TeamRecord;
+  fields.column(&R::seed_address,
+                {columns::kSeedAddress, "Address of the team's random numbers: seed/composition/replicate."});
+  fields.column(
+      &R::status,
+      {columns::kStatus,
+       "'complete' if every knowledge component was learned or is implied by the lessons of others; 'skipped' if "
+       "something stayed open that nothing could show; 'max_periods' if teaching stopped before."});
+  fields.derived(&R::completed, {columns::kCompleted, "Whether the status is 'complete'."});
+  fields.column(&R::periods,
+                columns::count(columns::kPeriods, "Interaction periods; for the baseline the sum over members."));
+  fields.column(&R::demonstrations, columns::count(columns::kDemonstrations, "Demonstrations shown, in all periods."));
+  fields.column(&R::tests,
+                columns::count(columns::kTests, "Tests asked, in all periods; each of them of every member."));
+  fields.column(&R::knowledge,
+                {columns::kKnowledge,
+                 "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."});
+  fields.column(&R::knowledge_min, {"knowledge_min", "The smallest of these masses."});
+  fields.column(&R::components_learned,
+                {"kcs_learned", "Knowledge components learned; for the baseline the sum over members."});
+  fields.column(
+      &R::components_skipped,
+      {"kcs_skipped",
+       "Knowledge components left out, because nothing that could be shown adds to what was taught, or by design."});
+  fields.column(&R::area_sr, {columns::kAreaSr, "Mean over periods of the area in periods.csv.", "sr"});
+  fields.part(&R::cost, {.when = has_costs});
+  fields.part(&R::forecast, {.when = has_forecasts});
+  fields.kept(&R::learners);
+  fields.kept(&R::period_records);
+  fields.kept(&R::beliefs);
+  fields.kept(&R::demonstration_records);
+  fields.kept(&R::responses);
+  fields.kept(&R::progress);
+  fields.kept(&R::exams);
+  fields.kept(&R::estimates);
+  fields.part(&R::exam, {.when = has_exam, .required = has_exam});
+  // Before the columns of the exam, where these are.
+  fields.column(&R::fewest_particles,
+                columns::measure(columns::kFewestParticles,
+                                 "The smallest effective number of particles of a member's belief that satisfied what "
+                                 "the member was just shown. Below 10 the belief is impoverished."),
+                {.when = has_belief_quality, .required = has_belief_quality, .before = columns::kExamShareRight});
+}
+
+}  // namespace kith
