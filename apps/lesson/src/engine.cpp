@@ -5,9 +5,12 @@
 //   {"do": "tick", "now_us"}                                                                what is due by the clock
 //   {"do": "teach", "now_us"}                                                               the next lesson
 //   {"do": "world", "key"}, {"do": "texts"}, {"do": "seal"}         a table of moves, texts, a digest of all events
+//   {"do": "progress"}                                              {"predictions", "components"}
 //
-// All but the last three reply {"events": those that happened, "view", "due_us" or null, "teaching": whether a lesson
-// is waited for, "lesson": {"seq", "demos", "tests"} if one was chosen, "refusal" or null}. Whatever goes wrong is
+// A lesson among the events of "open" whose body is null is chosen again; the reply then has all events and what the
+// lessons show as {"restored": {"events", "lessons"}}. All but the last four reply {"events": those that happened,
+// "view", "due_us" or null, "teaching": whether a lesson is waited for, "lesson": {"seq", "demos", "tests"} if one was
+// chosen, "refusal" or null}. Whatever goes wrong is
 // {"error": text}.
 #include <filesystem>
 #include <fstream>
@@ -39,6 +42,7 @@ class Engine {
     if (!room_) throw std::logic_error{"nothing is open"};
     if (what == "world") return world(request.at("key").get<std::string>());
     if (what == "texts") return language_json(*study_);
+    if (what == "progress") return progress();
     if (what == "seal") return {{"seal", seal_}};
     now_us_ = std::max(now_us_, request.at("now_us").get<std::int64_t>());
     if (what == "ask") return ask(request.at("type").get<std::string>(), request.value("body", Json::object()));
@@ -56,15 +60,25 @@ class Engine {
     }
     const auto reading = load_study(std::string{kFolder} + "/study.toml");
     if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
-    study_ = make_live_study(*reading.study, std::make_shared<const Atlas>(*reading.domain), kFolder);
+    study_ =
+        make_live_study(*reading.study, std::make_shared<const Atlas>(*reading.domain), kFolder, reading.domain_text);
     cache_ = std::make_unique<TeachingCache>(study_->atlas);
     room_.emplace(study_, room_setup(request.at("setup")), *cache_);
     now_us_ = request.at("now_us").get<std::int64_t>();
-    for (const auto& event : request.value("events", Json::array())) happen(room_event(event));
-    happened_ = Json::array();
+    Json lessons = Json::array();
+    for (const auto& event : request.value("events", Json::array())) {
+      if (event.at("body").is_null()) {
+        lessons.push_back(teach_next(event.at("at_us").get<std::int64_t>()));
+      } else {
+        happen(room_event(event));
+      }
+    }
+    auto restored = Json{{"events", std::exchange(happened_, Json::array())}, {"lessons", lessons}};
     if (room_->seq() == 0) decide({"server", "join", {{"seat", 1}}, {}});
     decide({"server", "present", {{"seat", 1}}, {}});
-    return state();
+    auto reply = state();
+    if (!lessons.empty()) reply["restored"] = std::move(restored);
+    return reply;
   }
 
   Json ask(const std::string& type, Json body) {
@@ -75,15 +89,27 @@ class Engine {
   }
 
   Json teach() {
-    if (const auto task = room_->teaching()) {
-      const auto lesson = task->run(*cache_);
-      const auto event = room_->taught(lesson, now_us_);
-      happen(event, &lesson);
-      auto reply = state();
-      reply["lesson"] = lesson_content(lesson, event.seq);
-      return reply;
-    }
-    return state();
+    if (!room_->teaching()) return state();
+    auto lesson = teach_next(now_us_);
+    auto reply = state();
+    reply["lesson"] = std::move(lesson);
+    return reply;
+  }
+
+  // @return what it shows and asks.
+  Json teach_next(std::int64_t at_us) {
+    const auto task = room_->teaching();
+    if (!task) throw Error{ErrorKind::kMismatch, "there is no lesson to be chosen"};
+    const auto lesson = task->run(*cache_);
+    const auto event = room_->taught(lesson, at_us);
+    happen(event, &lesson);
+    return lesson_content(lesson, event.seq);
+  }
+
+  // How far the person is, for learning systems.
+  Json progress() const {
+    const auto room = room_->view({Viewer::Role::kFacilitator, 0}, now_us_).at("room");
+    return {{"predictions", room.at("answers")}, {"components", room.at("session").at("components")}};
   }
 
   std::optional<Refusal> decide(const RoomCommand& command) {

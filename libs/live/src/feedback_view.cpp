@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "exploration.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
@@ -7,6 +8,7 @@
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 namespace {
@@ -83,15 +85,14 @@ Json spared_by(const Domain& domain, MdpIndex world, StateIndex s, ActionIndex r
   return spared;
 }
 
-// What everybody can know of the features of the lesson's component who has seen all demonstrations and all feedback.
-std::vector<Bracket> shown_so_far(const RoomParts& room) {
+// What somebody can know of features who has seen all demonstrations, all feedback, and what they explored.
+Json known_brackets(const RoomParts& room, const LiveSeat& seat, std::span<const std::size_t> features) {
   const auto& atlas = *room.study.atlas;
-  const auto& components = atlas.knowledge_components();
   auto known = atlas.domain().prior();
-  const auto& history = room.state.session->history();
-  for (const auto& past : history) known.insert(known.end(), past.lesson.taught.begin(), past.lesson.taught.end());
-  return brackets(atlas.domain(), known, components[history.back().lesson.component].features,
-                  reference_feature(atlas.domain(), components));
+  for (const auto& more : {taught_so_far(room.state), seat.explored})
+    known.insert(known.end(), more.begin(), more.end());
+  const auto reference = reference_feature(atlas.domain(), atlas.knowledge_components());
+  return brackets_json(atlas.domain(), brackets(atlas.domain(), known, features, reference));
 }
 
 }  // namespace
@@ -180,8 +181,28 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
                 {"all_right", all_right},
                 {"learned", learned},
                 {"others_unsure", all_right && !learned && others_unsure}};
-  if (room.study.group().screens.brackets) feedback["brackets"] = brackets_json(domain, shown_so_far(room));
+  if (room.study.group().screens.brackets) {
+    const auto component = past.lesson.component;
+    feedback["brackets"] = known_brackets(room, seat, atlas.knowledge_components()[component].features);
+  }
   return feedback;
+}
+
+Json explore_json(const RoomParts& room, const LiveSeat& seat) {
+  const auto& atlas = *room.study.atlas;
+  const auto* lesson = last_lesson(room.state);
+  const bool has_test = lesson != nullptr && !lesson->tests.empty();
+  const auto first = has_test ? lesson->tests.back().demo : room.study.sandbox;
+  const auto reference = reference_feature(atlas.domain(), atlas.knowledge_components());
+  std::vector<std::size_t> features;
+  for (std::size_t k = 0; k < atlas.domain().num_features(); ++k) {
+    if (k != reference) features.push_back(k);
+  }
+  Json explore{{"first", explored(atlas, first).shown},
+               {"put", can_change_map(room.study) ? placeable_symbols(atlas.domain()) : std::vector<std::string>{}}};
+  explore["brackets"] = known_brackets(room, seat, features);
+  if (seat.exploration) explore["last"] = *seat.exploration;
+  return explore;
 }
 
 }  // namespace kith

@@ -185,13 +185,14 @@ std::string filled_up(std::string composition, std::size_t size) {
 }  // namespace
 
 std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
-                                                 const std::filesystem::path& folder) {
+                                                 const std::filesystem::path& folder, std::string domain_text) {
   if (study.variants.size() != 1) {
     throw Error{ErrorKind::kInvalidInput,
                 "a study with varied keys cannot be run with people: remove 'vary' from [design]"};
   }
   auto live = std::make_shared<LiveStudy>();
   live->spec = study.variants.front();
+  live->domain_text = std::move(domain_text);
   require_teachable(live->spec.strategies);
   require_whole_group(live->spec);
   auto& group = live->spec.group;

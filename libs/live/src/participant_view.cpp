@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "exploration.hpp"
 #include "kith/explain/runs.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
@@ -160,6 +161,10 @@ class ParticipantPage {
       view["end"] = end_json(room_.study, seat_.why, end_text(seat_, state_.end_text),
                              seat_.gets_code ? code() : std::string{}, seat_.query);
     }
+    const bool may_explore = stage == "feedback" || stage == "debrief";
+    if (may_explore && room_.study.group().screens.explore && can_explore(room_.study.atlas->domain())) {
+      view["explore"] = explore_json(room_, seat_);
+    }
     if (state_.deadline_us && (stage == "watch" || stage == "predict" || stage == "feedback")) {
       view["limit_ms"] = in_ms(*state_.deadline_us);
     }
@@ -298,15 +303,15 @@ std::string percent_encoded(const std::string& text) {
 
 }  // namespace
 
-Json live_board(const LiveStudy& study, StartIndex demo) {
-  const auto& domain = study.atlas->domain();
+Json live_board(const Atlas& atlas, StartIndex demo) {
+  const auto& domain = atlas.domain();
   const auto all = board_domain_json(domain);
   Json legend{{"id", all["id"]}};
   for (const char* key : {"legend", "surfaces", "width", "height", "counted", "job"}) {
     if (all.contains(key)) legend[key] = all[key];
   }
   Json board{{"domain", legend}};
-  board.update(board_json(domain, study.atlas->id(demo)));
+  board.update(board_json(domain, atlas.id(demo)));
   return board;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "exploration.hpp"
 #include "room_stepper.hpp"
 
 namespace kith {
@@ -144,6 +145,17 @@ class RoomChange {
   void happen(const Continued&) {
     who().has_continued = true;
     who().since_us = event_.at_us;
+  }
+  void happen(const Explored& e) {
+    auto& person = who();
+    auto found = explored(study_, AskedWorld{e.world, e.map, e.start});
+    for (auto& half_space : found.conveyed) {
+      if (std::ranges::find(person.explored, half_space) == person.explored.end()) {
+        person.explored.push_back(std::move(half_space));
+      }
+    }
+    person.exploration = std::make_shared<const Json>(std::move(found.shown));
+    ++person.explorations;
   }
   void happen(const QuestionsAnswered&) {
     who().has_answered_questions = true;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "exploration.hpp"
 #include "kith/domains/judgement.hpp"
 #include "room_body.hpp"
 #include "room_state.hpp"
@@ -13,6 +14,8 @@ namespace {
 constexpr std::int64_t kMostMillis = 86'400'000;
 constexpr std::size_t kMostNameBytes = 80;
 constexpr std::size_t kMostAnswerBytes = 4000;
+constexpr std::size_t kMostExplorations = 2000;  // of one person
+constexpr std::size_t kMostStartBytes = 2000;
 
 // What a person asks for.
 class SeatDecider {
@@ -149,6 +152,37 @@ class SeatDecider {
       return is_running(state_) || state_.phase == RoomPhase::kQuestions ? nothing_to_do() : not_now();
     }
     return seat_.has_continued ? nothing_to_do() : accepted(Continued{});
+  }
+
+  [[nodiscard]] Decision ask(OfKind<Explored>) const {
+    const auto& domain = room_.study.atlas->domain();
+    const auto stage = stage_of_seat(room_, seat_);
+    if (!room_.study.group().screens.explore || !can_explore(domain)) return not_now();
+    if (stage != "feedback" && stage != "debrief") return too_late();
+    if (seat_.explorations >= kMostExplorations) return not_now();
+    auto start = command_.body.value("start", Json{});
+    if (!start.is_object() || start.dump().size() > kMostStartBytes) return bad_body();
+    if (command_.body.contains("world")) {
+      const auto world = integer_in(command_.body, "world", 0, static_cast<std::int64_t>(domain.num_mdps()) - 1);
+      return world ? accepted(Explored{std::move(start), static_cast<std::size_t>(*world), {}}) : bad_body();
+    }
+    auto map = rows_of(*domain.drawing(), command_.body.value("map", Json{}));
+    return map ? accepted(Explored{std::move(start), std::nullopt, *std::move(map)}) : bad_body();
+  }
+
+  // As many rows and symbols as the map has.
+  [[nodiscard]] static std::optional<std::vector<std::string>> rows_of(const GridMap& map, const Json& json) {
+    if (!json.is_array() || json.size() != static_cast<std::size_t>(map.height())) return std::nullopt;
+    std::vector<std::string> rows;
+    for (const auto& row : json) {
+      if (!row.is_string()) return std::nullopt;
+      rows.push_back(row.get<std::string>());
+      if (rows.back().size() != static_cast<std::size_t>(map.width()) ||
+          !is_clean_text(rows.back(), rows.back().size())) {
+        return std::nullopt;
+      }
+    }
+    return rows;
   }
 
   [[nodiscard]] Decision ask(OfKind<QuestionsAnswered>) const {

@@ -88,6 +88,7 @@ class RoomBytes {
     add(seat.draft);
     bytes_.count(seat.right);
     bytes_.count(seat.tests);
+    if (seat.explorations > 0) bytes_.count(seat.explorations);  // as before where nobody explores
   }
 
   const Room::State& state_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/geometry/half_space.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
 
@@ -62,6 +63,10 @@ struct LiveSeat {
   bool has_answered = false;                    ///< All tests, or the time is over.
   std::vector<std::size_t> draft;               ///< Of the first test without a path.
   bool has_continued = false;
+  std::shared_ptr<const Json> exploration;  ///< What was explored last, see Exploration::shown; null: nothing yet.
+
+  std::vector<HalfSpace> explored;  ///< What all explorations conveyed, each once.
+  std::size_t explorations = 0;
 
   bool has_answered_questions = false;
   std::size_t right = 0;

@@ -227,6 +227,7 @@ void RoomStepper::begin_watching() {
     seat.draft.clear();
     seat.has_answered = seat.paths.empty();
     seat.has_continued = false;
+    seat.exploration.reset();
   }
   state_.period_us = at_us_;
   begin_phase(RoomPhase::kWatching);

@@ -12,7 +12,8 @@ namespace kith {
 [[nodiscard]] inline std::int64_t in_ms(std::int64_t us) noexcept { return us / 1000; }
 
 /// A board as participants get it: the legend of the domain and the map, nothing about rewards.
-[[nodiscard]] Json live_board(const LiveStudy& study, StartIndex demo);
+[[nodiscard]] Json live_board(const Atlas& atlas, StartIndex demo);
+[[nodiscard]] inline Json live_board(const LiveStudy& study, StartIndex demo) { return live_board(*study.atlas, demo); }
 /// The robot's path from there: path_json().
 [[nodiscard]] Json robot_path(const LiveStudy& study, StartIndex demo);
 /// Runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where nothing is
@@ -31,6 +32,9 @@ namespace kith {
 
 /// `feedback` of a participant.
 [[nodiscard]] Json feedback_json(const RoomParts& room, const LiveSeat& seat);
+/// `explore` of a participant: {first, last, put, brackets}, what can be explored and what was explored last; see
+/// Exploration. @pre can_explore() the domain.
+[[nodiscard]] Json explore_json(const RoomParts& room, const LiveSeat& seat);
 /// Why the robot's path is better than another one, in words: "Your path makes the robot take 2 more steps than
 /// needed."
 [[nodiscard]] std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVector& robot_counts,

@@ -49,6 +49,15 @@ const Lesson* last_lesson(const Room::State& state) {
   return history.empty() ? nullptr : &history.back().lesson;
 }
 
+std::vector<HalfSpace> taught_so_far(const Room::State& state) {
+  if (state.summary) return state.summary->taught;
+  std::vector<HalfSpace> taught;
+  for (const auto& past : state.session->history()) {
+    taught.insert(taught.end(), past.lesson.taught.begin(), past.lesson.taught.end());
+  }
+  return taught;
+}
+
 RobotInWords robot_in_words(const RoomParts& room) {
   if (room.state.summary) return room.state.summary->robot;
   const auto& atlas = *room.study.atlas;
@@ -95,6 +104,7 @@ Room::State released_state(const RoomParts& room) {
   summary.periods = num_periods(state);
   summary.components.assign(components.begin(), components.end());
   if (const auto* lesson = last_lesson(state)) summary.last_lesson = *lesson;
+  summary.taught = taught_so_far(state);
   summary.robot = robot_in_words(room);
   summary.beliefs = belief_points(room);
   summary.digest = digest_of(*state.session);

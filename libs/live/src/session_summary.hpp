@@ -22,6 +22,7 @@ struct SessionSummary {
   std::size_t periods = 0;
   std::vector<ComponentStatus> components;
   std::optional<Lesson> last_lesson;                         ///< Of the last period.
+  std::vector<HalfSpace> taught;                             ///< See taught_so_far().
   RobotInWords robot;                                        ///< See robot_in_words().
   std::vector<std::pair<std::string, std::string>> beliefs;  ///< See belief_points().
   std::vector<bool> has_learner;                             ///< By member: whether it was simulated at the end.
@@ -42,6 +43,8 @@ struct SessionSummary {
 [[nodiscard]] std::span<const ComponentStatus> components_of(const Room::State& state);
 /// The lesson of the last completed period; null if there is none.
 [[nodiscard]] const Lesson* last_lesson(const Room::State& state);
+/// What the demonstrations of all completed periods conveyed, in order.
+[[nodiscard]] std::vector<HalfSpace> taught_so_far(const Room::State& state);
 [[nodiscard]] RobotInWords robot_in_words(const RoomParts& room);
 /// Particles of the beliefs about the members and of the aggregated ones, by name: int16 little endian x, y, z in
 /// base64. Empty for a waiting list and for rewards of more or fewer than three weights.

@@ -57,6 +57,7 @@ class Collector {
   void note(const Watched&) {}
   void note(const Drafted&) {}
   void note(const Continued&) {}
+  void note(const Explored&) {}
   void note(const Released&) {}
   void note(const Grouped&) {}
   void note(const Called&) {}

@@ -32,7 +32,7 @@ std::string inputs_digest(const std::map<std::string, std::string>& inputs) {
 std::shared_ptr<const LiveStudy> live_study(const StudyReading& reading, const fs::path& folder) {
   if (!reading.study || !reading.domain) throw std::invalid_argument{"make_session_study: the reading has no study"};
   const auto atlas = std::make_shared<const Atlas>(*reading.domain);
-  return make_live_study(*reading.study, atlas, folder);
+  return make_live_study(*reading.study, atlas, folder, reading.domain_text);
 }
 
 // The study with the group's files under names of our own; their texts are added to the inputs.

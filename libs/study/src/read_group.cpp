@@ -52,6 +52,7 @@ class GroupReader {
     if (auto screens = group_.table("screens", Presence::kOptional)) {
       take(options_.screens.predict_first, screens->boolean("predict_first", Presence::kOptional));
       take(options_.screens.brackets, screens->boolean("brackets", Presence::kOptional));
+      take(options_.screens.explore, screens->boolean("explore", Presence::kOptional));
       screens->finish();
     }
     read_questions();

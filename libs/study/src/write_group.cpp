@@ -83,6 +83,7 @@ TomlTable group_table(const GroupOptions& group) {
     GroupTable screens;
     screens.add("predict_first", group.screens.predict_first);
     screens.add("brackets", group.screens.brackets);
+    screens.add("explore", group.screens.explore);
     table.add("screens", screens.take());
   }
   screening.count("tests", group.screening.tests);

@@ -143,7 +143,7 @@ function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
     case 'questions':
       return questions ? <Questions {...props} items={questions.items} /> : null;
     case 'debrief':
-      return debrief ? <Debrief debrief={debrief} isSaved={isSaved} /> : null;
+      return debrief ? <Debrief {...props} debrief={debrief} isSaved={isSaved} /> : null;
     case 'declined':
     case 'full':
     case 'ended':

@@ -48,6 +48,17 @@ export interface Judged {
   chance?: { world: string; state: number; spared: number[] }; // the start in its table of moves, and what the robot's move at the fork avoids
 }
 
+// Where the robot goes from `board.start`, and what else it could do; `tie`: that is worth the same to it.
+export interface Explored {
+  impossible?: true; // the robot cannot do its job there; nothing else is said then
+  board?: PlayBoard;
+  path?: Path;
+  other?: Path | null;
+  differs_at?: number | null;
+  reason?: string; // in English
+  tie?: boolean;
+}
+
 export interface Question {
   id: string;
   kind: 'likert' | 'text' | 'choice';
@@ -98,6 +109,8 @@ export interface ParticipantView {
   // others_unsure: somebody else was not right, which is why the group goes on
   // brackets: where the study shows them
   feedback?: { tests: Judged[]; all_right: boolean; learned: boolean; others_unsure: boolean; brackets?: Bracket[] };
+  // where the study lets people change the world; `put` are symbols that may stand anywhere on the map
+  explore?: { first: Explored; last?: Explored; put: string[]; brackets: Bracket[] };
   questions?: { items: Question[] };
   // what the robot is like: of the parts that the group had lessons about, and of the others
   debrief?: { summary: string[]; not_reached: string[]; code: string; redirect?: string; rounds: number; right: number; tests: number };
@@ -115,6 +128,7 @@ export interface Commands {
   draft: { test: number; actions: number[] };
   answer: { test: number; actions: number[]; for_ever?: true; keys: KeyPress[]; ms: number };
   continue: Record<string, never>;
+  explore: { world?: number; map?: string[]; start: Frame };
   questions: { answers: Record<string, string | number> };
   leave: Record<string, never>;
 }

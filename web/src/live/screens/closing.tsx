@@ -4,12 +4,19 @@ import { useState } from 'preact/hooks';
 import { useLegend } from '../../shared/play/board_pane';
 import { SmallBoard } from '../../shared/play/small_board';
 import { remembered, type Memory } from '../memory';
+import { Explore } from '../parts/explore';
 import { Button, CompletionCode, GoOn, Heading } from '../parts/ui';
 import type { Judged, ParticipantView } from '../protocol';
+import type { ScreenProps } from '../screen';
 import { pathOf } from './feedback';
 import { hasText, isEnglish, sentence, t } from '../../shared/texts';
 
-export function Debrief({ debrief, isSaved }: { debrief: NonNullable<ParticipantView['debrief']>; isSaved: boolean }): JSX.Element {
+interface DebriefProps extends ScreenProps {
+  debrief: NonNullable<ParticipantView['debrief']>;
+  isSaved: boolean;
+}
+
+export function Debrief({ debrief, isSaved, view, connection }: DebriefProps): JSX.Element {
   const { code, redirect, rounds, right, tests, summary, not_reached } = debrief;
   const [memory] = useState(remembered);
   return (
@@ -22,6 +29,13 @@ export function Debrief({ debrief, isSaved }: { debrief: NonNullable<Participant
       <Sentences name="summary" texts={summary} boards={memory.boards} />
       <Sentences name="not_reached" texts={not_reached} />
       <FirstAndLast {...memory} />
+      {view.explore && (
+        <section class="explore-part no-print" aria-labelledby="explore-title">
+          <h2 id="explore-title">{t('explore.title')}</h2>
+          <p>{t(view.explore.put.length > 0 ? 'explore.lead' : 'explore.lead_robot')}</p>
+          <Explore explore={view.explore} connection={connection} />
+        </section>
+      )}
       {summary.length > 0 && (
         <p class="no-print">
           <Button onClick={() => window.print()}>{t('debrief.print')}</Button>

@@ -8,6 +8,7 @@ import { Brackets, type Bracket } from '../../shared/play/brackets';
 import { Compare } from '../../shared/play/compare';
 import { Fan, stateAt } from '../../shared/play/fan';
 import { sentence, t } from '../../shared/texts';
+import { Explore } from '../parts/explore';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { remember } from '../memory';
 import type { Frame, Judged } from '../protocol';
@@ -54,6 +55,13 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
       <p class="kicker">{t('feedback.count', { index: index + 1, of: feedback.tests.length })}</p>
       <TimeLeft until={view.limit_ms} />
       <OneTask key={index} test={test} token={token} brackets={isLast ? (feedback.brackets ?? []) : []} next={next} />
+      {isLast && view.explore && (
+        <details class="explore-part">
+          <summary>{t('explore.title')}</summary>
+          <p>{t(view.explore.put.length > 0 ? 'explore.lead' : 'explore.lead_robot')}</p>
+          <Explore explore={view.explore} connection={connection} />
+        </details>
+      )}
     </>
   );
 }

@@ -27,6 +27,7 @@ struct LiveLanguage {
 struct LiveStudy {
   StudySpec spec;  ///< With `group`: its texts filled in, its files read.
   std::shared_ptr<const Atlas> atlas;
+  std::string domain_text;  ///< The domain file, of which people may change the map; see Explored.
   LiveLanguage language;
   StartIndex sandbox;  ///< Where people try the keyboard: at least two steps from the end if possible, then
                        ///< a start that tests nothing.
@@ -43,13 +44,15 @@ struct LiveStudy {
 /// What rooms of this study share. Tests of the screening are drawn from the study's seed. People are never asked about
 /// starts without an answerable_path(): the atlas of the result has no tests there.
 /// @param folder  where consent_file and language are looked for.
+/// @param domain_text  the domain file, see LiveStudy::domain_text; empty: nobody can change its map.
 /// @throws kith::Error (kInvalidInput) if the study varies keys, a strategy needs the truth about learners, the study
 /// releases members or teaches types apart, its only strategy teaches one person and no composition has one, no group
 /// has a place for people of high or of low ability although the screening seats them, or consent_file or language
 /// cannot be understood; (kInfeasible) if a world has more than kMaxLiveStates states or the domain cannot be taught or
 /// asked about; (kIo) if a file cannot be read.
 [[nodiscard]] std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
-                                                               const std::filesystem::path& folder = {});
+                                                               const std::filesystem::path& folder = {},
+                                                               std::string domain_text = {});
 
 /// The cells of the design that rooms are made for in turn: strategies within compositions, without those that cannot
 /// be taught together (the baseline teaches one person).

@@ -156,6 +156,16 @@ struct Continued {
   static constexpr std::tuple<> kMembers{};
 };
 
+/// Somebody asked where the robot would go from `start` (a frame as pages have it): in a world of the domain, or on a
+/// map that they changed.
+struct Explored {
+  static constexpr RoomEventKind kKind{"explored", "explore", kSeat, kUnlogged, false};
+  Json start;
+  std::optional<std::size_t> world;
+  std::vector<std::string> map;
+  static constexpr std::tuple kMembers{"start", &Explored::start, "world?", &Explored::world, "map?", &Explored::map};
+};
+
 /// Answers to the questions at the end, by id.
 struct QuestionsAnswered {
   static constexpr RoomEventKind kKind{"questions",
@@ -356,11 +366,11 @@ bool operator==(const Event& a, const Event& b) {
 using RoomHappening =
     std::variant<happening::Joined, happening::Consented, happening::Declined, happening::Checked, happening::Named,
                  happening::Screened, happening::Started, happening::LessonChosen, happening::Watched,
-                 happening::Drafted, happening::Answered, happening::Continued, happening::QuestionsAnswered,
-                 happening::Left, happening::Away, happening::Present, happening::Dropped, happening::Released,
-                 happening::Grouped, happening::Called, happening::Seated, happening::TimeOver, happening::Paused,
-                 happening::Resumed, happening::Extended, happening::MessageSent, happening::Readmitted,
-                 happening::Simulated, happening::StrategyNamed, happening::Ended>;
+                 happening::Drafted, happening::Answered, happening::Continued, happening::Explored,
+                 happening::QuestionsAnswered, happening::Left, happening::Away, happening::Present, happening::Dropped,
+                 happening::Released, happening::Grouped, happening::Called, happening::Seated, happening::TimeOver,
+                 happening::Paused, happening::Resumed, happening::Extended, happening::MessageSent,
+                 happening::Readmitted, happening::Simulated, happening::StrategyNamed, happening::Ended>;
 
 /// All rows.
 inline constexpr auto kRoomEventKinds = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {

@@ -60,6 +60,7 @@ struct GroupScreening {
 struct GroupScreens {
   bool predict_first = false;  ///< People sketch the robot's path before they watch it.
   bool brackets = false;       ///< Feedback shows between which bounds each cost lies, by what was shown so far.
+  bool explore = false;        ///< After feedback and at the end people may change the world and see the robot's path.
   friend bool operator==(const GroupScreens&, const GroupScreens&) = default;
 };
 

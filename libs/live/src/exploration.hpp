@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/geometry/half_space.hpp"
+#include "kith/live/live_study.hpp"
+
+namespace kith {
+
+/// What somebody asks of the robot: where would it go from here, in a world that they may have changed?
+struct AskedWorld {
+  std::optional<std::size_t> world;  ///< One of the domain's; nothing: that of `map`.
+  std::vector<std::string> map;      ///< Top row first, in symbols of the domain file.
+  Json start;                        ///< A frame as pages have them: {robot, items, stations}.
+};
+
+/// What the robot does there.
+struct Exploration {
+  /// {board, path, other, differs_at, reason, tie}; {impossible} if the robot cannot do its job there or nobody can be
+  /// where the frame says. `other` is the best path that trades something for something else, `tie` whether it is worth
+  /// the same to the robot.
+  Json shown;
+  std::vector<HalfSpace> conveyed;  ///< What the path tells about the weights; all hold strictly at the robot's.
+};
+
+/// Whether people can explore the worlds of a domain: there is a map or a picture, small enough to be changed by hand.
+[[nodiscard]] bool can_explore(const Domain& domain);
+
+/// Whether the map can be changed, too: a domain file with the rows of one.
+[[nodiscard]] bool can_change_map(const LiveStudy& study);
+
+/// Symbols of things that can be put anywhere on the map: floor, walls, terrain, stations.
+[[nodiscard]] std::vector<std::string> placeable_symbols(const Domain& domain);
+
+/// Never throws for what people send.
+[[nodiscard]] Exploration explored(const LiveStudy& study, const AskedWorld& asked);
+[[nodiscard]] Exploration explored(const Atlas& atlas, StartIndex demo);
+
+}  // namespace kith
