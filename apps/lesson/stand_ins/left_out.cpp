@@ -44,10 +44,6 @@ std::string base64(std::string_view bytes) {
 
 namespace detail {
 
-void read_csv_model(const ModelText&, const ModelText&, const std::vector<std::string>&, RawModel&, ModelReport&) {
-  throw std::logic_error{"models as CSV cannot be read in a page"};
-}
-
 std::optional<OccupancyGrid> read_occupancy_grid(const ModelText&, const TomlPlace&, NamedFiles&, ModelReport&) {
   throw std::logic_error{"occupancy grids cannot be read in a page"};
 }

@@ -127,7 +127,7 @@ StoreBatch batch_of(const LessonLog& log, std::int64_t number, std::int64_t now_
 
 Json lesson_document(const SessionStudy& session, const std::string& program) {
   for (const auto& [name, text] : session.inputs) {
-    if (name.ends_with(".csv") || name.ends_with(".yaml") || name.ends_with(".yml")) {
+    if (name.ends_with(".yaml") || name.ends_with(".yml")) {
       throw Error{ErrorKind::kInfeasible, "the engine of a lesson file cannot read '" + name + "'",
                   "draw the map in the domain file, or teach with 'kith serve'"};
     }
