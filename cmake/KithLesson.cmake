@@ -30,5 +30,14 @@ add_custom_command(OUTPUT ${lesson_file_page}
 if(KITH_BUILD_TESTS AND KITH_CHROMIUM)
   add_test(NAME web.LessonFile COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/tests/file_test.mjs
     --kith $<TARGET_FILE:kith> --modules ${PROJECT_BINARY_DIR}/web --chromium ${KITH_CHROMIUM})
-  set_tests_properties(web.LessonFile PROPERTIES ${browser_of_files} TIMEOUT 1200 LABELS web)
+  add_test(NAME web.LessonDoors COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/tests/doors_test.mjs
+    --kith $<TARGET_FILE:kith> --modules ${PROJECT_BINARY_DIR}/web --chromium ${KITH_CHROMIUM})
+  set_tests_properties(web.LessonFile web.LessonDoors PROPERTIES ${browser_of_files} TIMEOUT 1200 LABELS web)
+  find_program(KITH_FIREFOX NAMES firefox-esr firefox DOC "Second browser that tests lesson files")
+  mark_as_advanced(KITH_FIREFOX)
+  if(KITH_FIREFOX)
+    add_test(NAME web.LessonFirefox COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/tests/firefox_test.mjs
+      --kith $<TARGET_FILE:kith> --modules ${PROJECT_BINARY_DIR}/web --firefox ${KITH_FIREFOX})
+    set_tests_properties(web.LessonFirefox PROPERTIES ${browser_of_files} TIMEOUT 1200 LABELS web)
+  endif()
 endif()

@@ -76,7 +76,7 @@ function fill(template, name, value) {
 
 // Texts of screens that only live sessions have.
 const kOnlyLive =
-  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|debrief|end|bye|pause|trouble|progress|file)\./;
+  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|explore|debrief|end|bye|pause|trouble|progress|file|door)\./;
 const withoutLiveTexts = {
   name: 'texts',
   setup({ onLoad }) {
@@ -115,7 +115,7 @@ const hash = createHash('sha256').update(code, 'utf8').digest('base64');
 const policy = [
   "default-src 'none'",
   `script-src 'sha256-${hash}'${engine ? " 'wasm-unsafe-eval' blob:" : ''}`,
-  ...(engine ? ['worker-src blob:'] : []),
+  ...(engine ? ['worker-src blob:', "connect-src 'none'"] : []), // packages for learning systems may connect
   "style-src 'unsafe-inline'",
   'img-src data: blob:',
   "base-uri 'none'",

@@ -11,7 +11,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { launch, requireFrom } from './browser.mjs';
 import { reach, until } from './live/kith_tests.mjs';
-import { Person } from './live/person.mjs';
+import { Reader } from './live/reader.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
@@ -39,59 +39,27 @@ const refused = (...words) => {
 };
 let browser;
 
-// Somebody at a lesson file: what they see is told by the page, since there are no frames to read.
-class Reader extends Person {
-  static async of(name, look = {}) {
-    const { width = 1280, dark = false, reducedMotion = true } = look;
-    const context = await browser.newContext({
-      viewport: { width, height: 900 },
-      colorScheme: dark ? 'dark' : 'light',
-      reducedMotion: reducedMotion ? 'reduce' : 'no-preference',
-      offline: true,
-      acceptDownloads: true,
-    });
-    const page = await context.newPage();
-    const reader = new Reader(context, page, pathToFileURL(join(folder, name)).href);
-    await page.exposeFunction('tellView', (view) => (reader.view = view));
-    await page.addInitScript(() => window.addEventListener('kith-view', ({ detail }) => window.tellView(detail)));
-    page.on('request', (request) => {
-      if (!/^(file|blob|data):/.test(request.url())) reader.trouble.push(`request: ${request.url()}`);
-    });
-    reader.origin = 'null';
-    return reader.open();
-  }
-
-  async open() {
-    await super.open();
-    await until(() => this.view !== null);
-    return this;
-  }
-
-  // Lessons in a file ask for a guess first.
-  async watch() {
-    const skip = this.button('Watch without a guess');
-    if (await skip.isVisible()) await skip.click();
-    await super.watch();
-  }
-
-  table(key) {
-    return this.page.evaluate((name) => window.kithLesson.world(name), key);
-  }
-
-  async reload() {
-    this.view = null;
-    await this.page.reload();
-    await this.page.waitForSelector('h1');
-    await until(() => this.view !== null);
-  }
-
-  async log() {
-    return this.page.evaluate(() => window.kithLesson.log());
-  }
+// At a lesson file, without a network.
+async function readerOf(name, look = {}) {
+  const { width = 1280, dark = false, reducedMotion = true } = look;
+  const context = await browser.newContext({
+    viewport: { width, height: 900 },
+    colorScheme: dark ? 'dark' : 'light',
+    reducedMotion: reducedMotion ? 'reduce' : 'no-preference',
+    offline: true,
+    acceptDownloads: true,
+  });
+  await Reader.listen(context);
+  const reader = new Reader(context, await context.newPage(), pathToFileURL(join(folder, name)).href);
+  reader.page.on('request', (request) => {
+    if (!/^(file|blob|data):/.test(request.url())) reader.trouble.push(`request: ${request.url()}`);
+  });
+  reader.origin = 'null';
+  return reader.open();
 }
 
 async function withReader(name, look, body) {
-  const reader = await Reader.of(name, look);
+  const reader = await readerOf(name, look);
   try {
     await body(reader);
     assert.deepEqual(reader.trouble, [], 'requests, console messages or uncaught errors');
@@ -164,6 +132,51 @@ describe('a lesson in a file', () => {
       });
     });
   }
+
+  it('lets people change the world by keys and by dragging, and the robot plans again', async () => {
+    await withReader('delivery.html', {}, async (reader) => {
+      const { page } = reader;
+      await reach([reader], ['feedback']);
+      while (reader.view.feedback.tests.length > 1 && !(await page.locator('.explore-part').isVisible())) await reader.button('Next').click();
+      await page.locator('.explore-part summary').click();
+      const shown = () => reader.view.explore.last;
+      const cell = (x, y) => page.locator(`[data-cell="${x},${y}"]`);
+      const put = async (name, x, y) => {
+        await page.getByRole('radio', { name }).check();
+        await cell(x, y).click();
+      };
+      // Walls around the goal: the robot cannot do its job, and is told so.
+      await put('Put: wall', 1, 2);
+      await put('Put: wall', 2, 2);
+      await put('Put: wall', 2, 3);
+      await until(() => shown()?.impossible);
+      await page.getByText('The robot cannot do its job here').waitFor();
+      await reader.button('As it was').click();
+
+      // The robot by keys to its own place and two to the left.
+      await page.getByRole('radio', { name: 'Move' }).check();
+      const from = reader.view.explore.first.board.start.robot;
+      const to = from[0] > 2 ? [from[0] - 1, from[1]] : [from[0] + 1, from[1]];
+      await cell(...from).focus();
+      await page.keyboard.press('Enter');
+      await page.keyboard.press(to[0] > from[0] ? 'ArrowRight' : 'ArrowLeft');
+      await page.keyboard.press('Enter');
+      await until(() => shown() && JSON.stringify(shown().board?.start.robot) === JSON.stringify(to));
+
+      // And back with the pointer; whatever comes about survives a reload.
+      const [a, b] = [await cell(...to).boundingBox(), await cell(...from).boundingBox()];
+      await page.mouse.move(a.x + a.width / 2, a.y + a.height / 2);
+      await page.mouse.down();
+      await page.mouse.move(b.x + b.width / 2, b.y + b.height / 2, { steps: 4 });
+      await page.mouse.up();
+      await until(() => JSON.stringify(shown().board?.start.robot) === JSON.stringify(from));
+      if (values.screenshots) await page.screenshot({ path: join(values.screenshots, 'explore.png'), fullPage: true });
+      assert.deepEqual(await reader.violations(axe), []);
+      const seen = shown();
+      await reader.reload();
+      assert.deepEqual(shown(), seen);
+    });
+  });
 
   it('forgets everything when told to', async () => {
     await withReader('delivery.html', {}, async (reader) => {

@@ -1,4 +1,6 @@
 // kith lesson: a lesson in one file, which teaches whoever opens it.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <string>
 
@@ -10,6 +12,7 @@
 #include "kith/service/lesson_log.hpp"
 #include "kith/store/session_study.hpp"
 #include "kith/study/study_file.hpp"
+#include "learning_package.hpp"
 #include "page.hpp"
 #include "work_notice.hpp"
 
@@ -20,6 +23,7 @@ struct LessonOptions {
   std::string what;  ///< A study or a domain.
   std::string out;
   std::vector<std::string> set;
+  std::vector<std::string> origins;
 };
 
 bool is_study(const std::string& text) { return text.find("kith.study/") != std::string::npos; }
@@ -41,9 +45,40 @@ StudyReading reading_of(const LessonOptions& options) {
   return reading;
 }
 
+// A scheme and a host, and perhaps a port: what a browser calls an origin.
+void require_origin(const std::string& text) {
+  const auto scheme = text.find("://");
+  const bool has_scheme = scheme != std::string::npos && (text.starts_with("https://") || text.starts_with("http://"));
+  const auto rest = has_scheme ? text.substr(scheme + 3) : std::string{};
+  if (!rest.empty() && rest.find_first_of("/?#@* ") == std::string::npos) return;
+  refuse("--origin " + text + " is no origin", "give scheme and host alone, such as https://survey.example.org");
+}
+
+// The lesson with what SCORM 1.2 and cmi5 want to know of it. Only the page of a package may ask its learning system.
+void write_package(Json document, const std::string& out, Console& console) {
+  document["package"] = true;
+  std::string_view template_page{detail::kLessonFilePage};
+  std::string page{template_page};
+  const std::string closed = "connect-src 'none'";
+  page.replace(page.find(closed), closed.size(), "connect-src 'self' https: http:");
+  page = page_with(document.dump(-1, ' ', true), page);
+  const auto title = document.at("title").get<std::string>();
+  const auto digest = document.at("digest").get<std::string>();
+  const auto zip = stored_zip({{"imsmanifest.xml", scorm_manifest(title, digest)},
+                               {"cmi5.xml", cmi5_course(title, digest)},
+                               {"lesson.html", page}});
+  write_file_atomically(out, zip, FolderSync::kNow, OldLink::kFollow);
+  console.info(
+      fmt::format("a package with the lesson in {} ({:.0f} kB); upload it to a learning system as SCORM 1.2 or cmi5",
+                  out, static_cast<double>(zip.size()) / 1e3));
+}
+
 void declare(OptionList& list, LessonOptions& options) {
   list.text("what", options.what, "STUDY|DOMAIN", "A study, or a domain to be taught alone").required();
-  list.text("-o,--out", options.out, "FILE", "The lesson, one HTML file; '-' is standard output").required();
+  list.text("-o,--out", options.out, "FILE",
+            "The lesson, one HTML file ('-' is standard output), or a .zip for learning systems")
+      .required();
+  list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
 }
 
@@ -56,8 +91,15 @@ int run(const LessonOptions& options, Console& console) {
   const auto reading = reading_of(options);
   console.show(reading.diagnostics);
   const auto folder = std::filesystem::path{options.what}.parent_path();
-  const auto document = lesson_document(make_session_study(reading, folder), program_name());
-  write_page("lesson", page_with(document.dump(-1, ' ', true), detail::kLessonFilePage), options.out, console);
+  auto document = lesson_document(make_session_study(reading, folder), program_name());
+  for (const auto& origin : options.origins) require_origin(origin);
+  document["origins"] = options.origins;
+  const bool is_package = std::filesystem::path{options.out}.extension() == ".zip";
+  if (is_package) {
+    write_package(document, options.out, console);
+  } else {
+    write_page("lesson", page_with(document.dump(-1, ' ', true), detail::kLessonFilePage), options.out, console);
+  }
   console.info(
       "the file holds the robot's weights, for whoever looks for them: do not use it where they must stay hidden");
   return 0;
@@ -67,7 +109,7 @@ int run(const LessonOptions& options, Console& console) {
 
 void add_lesson(Commands& commands) {
   commands.add<LessonOptions>("lesson", "Write a lesson that teaches whoever opens it, in one file",
-                              {"kith lesson item-delivery -o lesson.html", "kith lesson study.toml -o lesson.html"},
+                              {"kith lesson item-delivery -o lesson.html", "kith lesson study.toml -o lesson.zip"},
                               declare, run);
 }
 

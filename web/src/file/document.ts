@@ -6,6 +6,8 @@ export interface LessonFile {
   digest: string; // of the inputs
   inputs: Record<string, string>; // study, domain, and what they name
   setup: Record<string, unknown>; // of the room
+  origins: string[]; // of pages around this one that are told how it goes
+  package?: true; // made for a learning system
 }
 
 export function readDocument(): LessonFile {

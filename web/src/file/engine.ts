@@ -14,6 +14,7 @@ export interface State {
   teaching: boolean;
   lesson?: Lesson; // if one was chosen
   refusal: { reason: string; text: string } | null;
+  restored?: { events: unknown[]; lessons: Lesson[] }; // all of a log in which lessons were left out
 }
 
 async function unpacked(id: string): Promise<ArrayBuffer> {

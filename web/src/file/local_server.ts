@@ -3,6 +3,7 @@ import type { Pipe, Transport } from '../shared/transport';
 import type { LessonFile } from './document';
 import type { Engine, State } from './engine';
 import { emptyLog, keepLog, type Log } from './log';
+import type { Component, Prediction } from './doors/door';
 
 type Message = { t: string; id?: string; body?: unknown };
 
@@ -22,13 +23,19 @@ export class LocalServer implements Transport {
     private readonly engine: Engine,
     private readonly file: LessonFile,
     log: Log | null,
+    private readonly learner: string,
     private readonly onKept: (isKept: boolean) => void,
+    private readonly onNews: () => void, // something has happened that others may want to know
   ) {
     this.log = log ?? emptyLog(file);
     const { setup, events } = this.log;
     this.opened = engine
       .ask<State>({ do: 'open', inputs: file.inputs, setup, events })
-      .then((state) => this.take(state));
+      .then((state) => {
+        if (state.restored) Object.assign(this.log, state.restored);
+        this.take(state);
+        if (state.restored) this.onNews();
+      });
   }
 
   /** Rejects if the log cannot be gone on with. */
@@ -46,6 +53,19 @@ export class LocalServer implements Transport {
   async export(): Promise<Log & { seal: string; inputs: LessonFile['inputs'] }> {
     const { seal } = await this.engine.ask<{ seal: string }>({ do: 'seal' });
     return { ...this.log, seal, inputs: this.file.inputs };
+  }
+
+  /** How far the learner is. */
+  progress(): Promise<{ predictions: Prediction[]; components: Component[] }> {
+    return this.engine.ask({ do: 'progress' });
+  }
+
+  get stage(): string {
+    return String(this.state?.view['stage'] ?? '');
+  }
+
+  get soFar(): Log {
+    return this.log;
   }
 
   open(): Pipe {
@@ -93,8 +113,9 @@ export class LocalServer implements Transport {
     if (state.lesson) this.log.lessons.push(state.lesson);
     if (state.events.length > 0) {
       this.log.events.push(...state.events);
-      const isKept = this.isStopped || keepLog(this.file, this.log);
+      const isKept = this.isStopped || keepLog(this.file, this.learner, this.log);
       if (isKept !== this.isKept) this.onKept((this.isKept = isKept));
+      if (!this.isStopped && state.events.some((event) => (event as { type: string }).type !== 'draft')) this.onNews();
     }
     clearTimeout(this.timer);
     if (state.teaching) this.later(0, 'teach');

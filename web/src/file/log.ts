@@ -13,7 +13,8 @@ export interface Log {
   messages: string[]; // of the page that were taken in
 }
 
-const place = (file: LessonFile): string => `kith.lesson.${file.digest}`;
+// Of one learner, where the system around the page says who it is.
+const place = (file: LessonFile, learner: string): string => `kith.lesson.${file.digest}${learner && `.${learner}`}`;
 
 export function emptyLog(file: LessonFile): Log {
   const setup = { ...file.setup, id: uuid() };
@@ -21,9 +22,9 @@ export function emptyLog(file: LessonFile): Log {
 }
 
 // Nothing if there is none, or it is one that cannot be gone on with.
-export function recalledLog(file: LessonFile): Log | null {
+export function recalledLog(file: LessonFile, learner: string): Log | null {
   try {
-    const log = JSON.parse(localStorage.getItem(place(file)) ?? 'null') as Log | null;
+    const log = JSON.parse(localStorage.getItem(place(file, learner)) ?? 'null') as Log | null;
     return log?.schema === 'kith.lesson-log/1' && log.study === file.digest && Array.isArray(log.events) ? log : null;
   } catch {
     return null;
@@ -31,18 +32,18 @@ export function recalledLog(file: LessonFile): Log | null {
 }
 
 /** Whether the browser has kept it. */
-export function keepLog(file: LessonFile, log: Log): boolean {
+export function keepLog(file: LessonFile, learner: string, log: Log): boolean {
   try {
-    localStorage.setItem(place(file), JSON.stringify(log));
+    localStorage.setItem(place(file, learner), JSON.stringify(log));
     return true;
   } catch {
     return false;
   }
 }
 
-export function eraseLog(file: LessonFile): void {
+export function eraseLog(file: LessonFile, learner: string): void {
   try {
-    localStorage.removeItem(place(file));
+    localStorage.removeItem(place(file, learner));
     sessionStorage.clear();
   } catch {
     // nothing was kept

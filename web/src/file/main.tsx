@@ -9,9 +9,12 @@ import { loadTexts, t } from '../shared/texts';
 import { installTheme } from '../shared/theme';
 import { useTransport } from '../shared/transport';
 import { readDocument } from './document';
+import type { Door } from './doors/door';
+import { unpacked } from './doors/packed';
+import { findDoor, Reporter, type DoorTrouble } from './doors/reporter';
 import { Engine } from './engine';
 import { LocalServer } from './local_server';
-import { eraseLog, recalledLog, type Log } from './log';
+import { emptyLog, eraseLog, recalledLog, type Log } from './log';
 
 installTheme();
 const file = readDocument();
@@ -22,7 +25,8 @@ function nameOf(title: string): string {
 }
 
 // What a server would do for people: hand their answers on, and forget them.
-function Bar({ server, isKept }: { server: LocalServer; isKept: boolean }): JSX.Element {
+function Bar({ server, learner, status }: { server: LocalServer; learner: string; status: Status }): JSX.Element {
+  const { isKept, trouble } = status;
   const [isSure, setSure] = useState(false);
   const save = async (): Promise<void> => {
     const text = JSON.stringify(await server.export());
@@ -30,12 +34,17 @@ function Bar({ server, isKept }: { server: LocalServer; isKept: boolean }): JSX.
   };
   const erase = (): void => {
     server.stop();
-    eraseLog(file);
+    eraseLog(file, learner);
     location.reload();
   };
   return (
     <footer class="file-bar no-print">
-      <p>{t(isKept ? 'file.kept' : 'file.not_kept')}</p>
+      {trouble && (
+        <p class="door-trouble" role="status">
+          {t(`door.${trouble}`)}
+        </p>
+      )}
+      <p>{t(!isKept ? 'file.not_kept' : file.package || file.origins.length > 0 ? 'file.told' : 'file.kept')}</p>
       <Button onClick={() => void save()}>{t('file.save')}</Button>
       {isSure ? (
         <>
@@ -61,26 +70,46 @@ function Trouble({ text, again }: { text: string; again?: () => void }): JSX.Ele
   );
 }
 
-function show(server: LocalServer, isKept: boolean): void {
+interface Status {
+  isKept: boolean;
+  trouble: DoorTrouble;
+}
+
+function show(server: LocalServer, learner: string, status: Status): void {
   if (!page) return;
   render(
     <>
       <App />
-      <Bar server={server} isKept={isKept} />
+      <Bar server={server} learner={learner} status={status} />
     </>,
     page,
   );
 }
 
-async function begin(log: Log | null): Promise<void> {
+// Of what this browser and the learning system have kept, the longer one.
+async function longestLog(door: Door | null): Promise<Log | null> {
+  const here = recalledLog(file, door?.learner ?? '');
+  const there = door?.recalled ? await unpacked(door.recalled, emptyLog(file)) : null;
+  const last = (log: Log): number => Number((log.events[log.events.length - 1] as { at_us?: number } | undefined)?.at_us ?? 0);
+  if (!here || !there) return here ?? there;
+  return last(there) > last(here) ? there : here;
+}
+
+async function begin(): Promise<void> {
   if (!page) return;
-  let isKept = true;
   let isShown = false;
+  const { door, trouble } = await findDoor(file);
+  learner = door?.learner ?? '';
+  const status: Status = { isKept: true, trouble };
+  const update = (part: Partial<Status>): void => {
+    Object.assign(status, part);
+    if (isShown) show(server, learner, status);
+  };
+  const reporter = new Reporter(file, door, (found) => update({ trouble: found }));
+  const log = await longestLog(door);
+  hasLog = log !== null;
   const engine = await Engine.start();
-  const server: LocalServer = new LocalServer(engine, file, log, (kept) => {
-    isKept = kept;
-    if (isShown) show(server, kept);
-  });
+  const server: LocalServer = new LocalServer(engine, file, log, learner, (isKept) => update({ isKept }), () => void reporter.news(server));
   await server.ready();
   useTransport(server);
   // For pages around this one and for tests: what has happened, and the table of moves of a world.
@@ -91,20 +120,21 @@ async function begin(log: Log | null): Promise<void> {
   if (skip) skip.textContent = t('page.skip');
   page.replaceChildren();
   isShown = true;
-  show(server, isKept);
+  show(server, learner, status);
 }
 
-const kept = recalledLog(file);
-begin(kept).catch((error: unknown) => {
+let learner = ''; // as the learning system knows them
+let hasLog = false;
+begin().catch((error: unknown) => {
   console.error(error);
   if (!page) return;
   const isOld = typeof DecompressionStream === 'undefined' || typeof WebAssembly === 'undefined';
   const again = (): void => {
-    eraseLog(file);
+    eraseLog(file, learner);
     location.reload();
   };
   page.replaceChildren();
   if (isOld) render(<Trouble text={t('file.old_browser')} />, page);
-  else if (kept) render(<Trouble text={t('file.lost')} again={again} />, page);
+  else if (hasLog) render(<Trouble text={t('file.lost')} again={again} />, page);
   else render(<Trouble text={t('file.broken')} />, page);
 });

@@ -1,0 +1,192 @@
+// A learning system that speaks cmi5: it opens this page with the address of a store for xAPI statements.
+import { uuid } from '../../shared/uuid';
+import { isLearned, scoreOf, type Door, type Prediction, type Progress } from './door';
+
+const kVersion = '1.0.3';
+const kCategory = 'https://w3id.org/xapi/cmi5/context/categories/';
+const kSession = 'https://w3id.org/xapi/cmi5/context/extensions/sessionid';
+const kMasteryScore = 'https://w3id.org/xapi/cmi5/context/extensions/masteryscore';
+const kOwn = 'https://w3id.org/xapi/kith/'; // extensions that say what nothing registered says
+const kVerbs = {
+  initialized: 'http://adlnet.gov/expapi/verbs/initialized',
+  answered: 'http://adlnet.gov/expapi/verbs/answered',
+  progressed: 'http://adlnet.gov/expapi/verbs/progressed',
+  passed: 'http://adlnet.gov/expapi/verbs/passed',
+  failed: 'http://adlnet.gov/expapi/verbs/failed',
+  completed: 'http://adlnet.gov/expapi/verbs/completed',
+  terminated: 'http://adlnet.gov/expapi/verbs/terminated',
+} as const;
+type Verb = keyof typeof kVerbs;
+
+interface LaunchData {
+  contextTemplate: { contextActivities?: Record<string, unknown>; extensions?: Record<string, unknown> } & Record<string, unknown>;
+  masteryScore?: number;
+  launchMode: 'Normal' | 'Browse' | 'Review';
+}
+
+// What has been told before, over all visits.
+interface Told {
+  log: string;
+  predictions: number;
+  components: string[];
+  isOver: boolean;
+}
+
+const duration = (ms: number): string => `PT${(ms / 1000).toFixed(2)}S`;
+
+class Store {
+  private constructor(
+    private readonly endpoint: string,
+    private readonly token: string,
+    readonly actor: Record<string, unknown>,
+    readonly registration: string,
+    readonly activity: string,
+  ) {}
+
+  // The system hands the token out once: it is kept for a reload.
+  static async open(query: URLSearchParams): Promise<Store> {
+    const get = (name: string): string => query.get(name) ?? '';
+    const place = `kith.cmi5.${get('registration')}.${get('fetch')}`;
+    let token = recall(place);
+    if (!token) {
+      const reply = await fetch(get('fetch'), { method: 'POST' });
+      const answer = (await reply.json()) as { 'auth-token'?: string; 'error-text'?: string };
+      token = answer['auth-token'] ?? '';
+      if (!token) throw new Error(answer['error-text'] ?? `status ${reply.status}`);
+      keep(place, token);
+    }
+    const endpoint = get('endpoint').replace(/\/*$/, '/');
+    return new Store(endpoint, token, JSON.parse(get('actor')) as Record<string, unknown>, get('registration'), get('activityId'));
+  }
+
+  private async request(path: string, init: RequestInit & { headers?: Record<string, string> }): Promise<Response> {
+    const headers = { Authorization: `Basic ${this.token}`, 'X-Experience-API-Version': kVersion, ...init.headers };
+    const reply = await fetch(this.endpoint + path, { ...init, headers });
+    if (!reply.ok && reply.status !== 404) throw new Error(`status ${reply.status}`);
+    return reply;
+  }
+
+  private statePath(name: string): string {
+    const query = new URLSearchParams({ activityId: this.activity, agent: JSON.stringify(this.actor), stateId: name, registration: this.registration });
+    return `activities/state?${query.toString()}`;
+  }
+
+  async state(name: string): Promise<string> {
+    const reply = await this.request(this.statePath(name), { method: 'GET' });
+    return reply.status === 404 ? '' : reply.text();
+  }
+
+  async setState(name: string, text: string): Promise<void> {
+    await this.request(this.statePath(name), { method: 'PUT', body: text, headers: { 'Content-Type': 'application/json' } });
+  }
+
+  async tell(statements: object[], isLast = false): Promise<void> {
+    if (statements.length === 0) return;
+    await this.request('statements', { method: 'POST', body: JSON.stringify(statements), headers: { 'Content-Type': 'application/json' }, keepalive: isLast });
+  }
+}
+
+function recall(name: string): string {
+  try {
+    return sessionStorage.getItem(name) ?? '';
+  } catch {
+    return '';
+  }
+}
+
+function keep(name: string, text: string): void {
+  try {
+    sessionStorage.setItem(name, text);
+  } catch {
+    // a reload needs a new launch then
+  }
+}
+
+class Statements {
+  constructor(
+    private readonly store: Store,
+    private readonly launch: LaunchData,
+  ) {}
+
+  of(verb: Verb, more: { result?: object; object?: { id: string; definition: object }; isDefined?: boolean; extensions?: object }): object {
+    const { contextTemplate, masteryScore } = this.launch;
+    const { object, result, isDefined, extensions } = more;
+    const category = [{ id: `${kCategory}cmi5` }, ...(verb === 'passed' || verb === 'failed' || verb === 'completed' ? [{ id: `${kCategory}moveon` }] : [])];
+    const activities = { ...contextTemplate.contextActivities };
+    if (isDefined) activities['category'] = [...((activities['category'] as object[] | undefined) ?? []), ...category];
+    if (object) activities['parent'] = [{ id: this.store.activity }];
+    const scored = verb === 'passed' || verb === 'failed';
+    return {
+      id: uuid(),
+      timestamp: new Date().toISOString(),
+      actor: this.store.actor,
+      verb: { id: kVerbs[verb], display: { en: verb } },
+      object: { objectType: 'Activity', ...(object ?? { id: this.store.activity }) },
+      ...(result ? { result } : {}),
+      context: {
+        ...contextTemplate,
+        registration: this.store.registration,
+        contextActivities: activities,
+        extensions: { ...contextTemplate.extensions, ...(scored && masteryScore !== undefined ? { [kMasteryScore]: masteryScore } : {}), ...extensions },
+      },
+    };
+  }
+
+  prediction({ period, test, right, regret, ms }: Prediction): object {
+    const id = `${this.store.activity}#prediction-${period + 1}-${test + 1}`;
+    const definition = { type: 'http://adlnet.gov/expapi/activities/interaction', name: { en: `Prediction ${test + 1} of round ${period + 1}` } };
+    return this.of('answered', { object: { id, definition }, result: { success: right, duration: duration(ms), extensions: { [`${kOwn}regret`]: regret } } });
+  }
+
+  component(name: string, index: number, status: string): object {
+    const definition = { type: 'http://adlnet.gov/expapi/activities/objective', name: { en: name } };
+    return this.of('progressed', { object: { id: `${this.store.activity}#component-${index + 1}`, definition }, result: { success: status === 'learned', extensions: { [`${kOwn}level`]: status } } });
+  }
+}
+
+export async function openCmi5(): Promise<Door | null> {
+  const query = new URLSearchParams(location.search);
+  if (!['endpoint', 'fetch', 'actor', 'registration', 'activityId'].every((name) => query.has(name))) return null;
+  const begun = Date.now();
+  const store = await Store.open(query);
+  const launch = JSON.parse(await store.state('LMS.LaunchData')) as LaunchData;
+  const isNormal = launch.launchMode === 'Normal'; // others may only look
+  const statements = new Statements(store, launch);
+  const kept = await store.state('kith');
+  let told: Told = kept ? (JSON.parse(kept) as Told) : { log: '', predictions: 0, components: [], isOver: false };
+  const session = launch.contextTemplate.extensions?.[kSession];
+  const initialized = `kith.cmi5.initialized.${String(session)}`;
+  if (!recall(initialized)) {
+    await store.tell([statements.of('initialized', { isDefined: true })]); // once a session
+    keep(initialized, 'yes');
+  }
+  const over = (progress: Progress): object[] => {
+    const scaled = scoreOf(progress) ?? 0;
+    const hasPassed = launch.masteryScore === undefined ? isLearned(progress) : scaled >= launch.masteryScore;
+    const time = duration(Date.now() - begun);
+    return [
+      statements.of(hasPassed ? 'passed' : 'failed', { isDefined: true, result: { success: hasPassed, score: { scaled }, duration: time } }),
+      statements.of('completed', { isDefined: true, result: { completion: true, duration: time } }),
+    ];
+  };
+  return {
+    learner: JSON.stringify(store.actor),
+    recalled: told.log,
+    room: Infinity,
+    report: async (progress, log) => {
+      if (!isNormal) return;
+      const { predictions, components } = progress;
+      const fresh = [
+        ...predictions.slice(told.predictions).map((one) => statements.prediction(one)),
+        ...components.flatMap(({ name, status }, i) => (status !== 'open' && told.components[i] !== status ? [statements.component(name, i, status)] : [])),
+        ...(progress.isFinished && !told.isOver ? over(progress) : []),
+      ];
+      await store.tell(fresh);
+      told = { log: log ?? told.log, predictions: predictions.length, components: components.map(({ status }) => status), isOver: told.isOver || progress.isFinished };
+      await store.setState('kith', JSON.stringify(told));
+    },
+    leave: () => {
+      void store.tell([statements.of('terminated', { isDefined: true, result: { duration: duration(Date.now() - begun) } })], true).catch(() => undefined);
+    },
+  };
+}

@@ -1,0 +1,43 @@
+// What a lesson tells the system that it is shown in: a learning system or the page around it.
+
+export interface Prediction {
+  period: number;
+  test: number;
+  right: boolean;
+  regret: number; // what the path loses against the robot's, in units of the robot's reward
+  ms: number;
+}
+
+export interface Component {
+  name: string; // what there is to learn, in English
+  status: 'open' | 'learned' | 'skipped';
+}
+
+export interface Progress {
+  predictions: Prediction[];
+  components: Component[];
+  isFinished: boolean;
+}
+
+/** The share of the last tests that was predicted right; null before the first. */
+export function scoreOf({ predictions }: Progress): number | null {
+  const last = Math.max(...predictions.map(({ period }) => period));
+  const tests = predictions.filter(({ period }) => period === last);
+  return tests.length === 0 ? null : tests.filter(({ right }) => right).length / tests.length;
+}
+
+/** Whether everything there is to learn was learned. */
+export const isLearned = ({ components }: Progress): boolean => components.length > 0 && components.every(({ status }) => status === 'learned');
+
+export interface Door {
+  /** Tells learners apart who use the same browser. */
+  learner: string;
+  /** What was kept of a lesson that was left; empty: nothing. */
+  recalled: string;
+  /** The longest text that is kept. */
+  room: number;
+  /** Tells how far the learner is and keeps what a later visit goes on from, unless that is null. Rejects if it was not taken. */
+  report: (progress: Progress, kept: string | null) => Promise<void>;
+  /** The page is left. */
+  leave: () => void;
+}
