@@ -39,7 +39,7 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
       <Button primary off={off} onClick={() => (isLast ? connection.send('continue', {}) : go(index + 1))}>
         {t(off ? 'feedback.continuing' : isLast ? 'common.continue' : 'common.next')}
       </Button>
-      {isLast && <p class="muted">{t(`feedback.${feedback.learned ? 'learned' : feedback.others_unsure ? 'again_others' : 'again'}`)}</p>}
+      {isLast && <p class="muted">{t(nextKey(feedback, view.group.size))}</p>}
     </div>
   );
   if (!test) {
@@ -138,6 +138,12 @@ export const pathOf = (frames: Frame[], from?: number, text?: string): Path => (
   ...(from === undefined ? {} : { repeats_from: from }),
   ...(text === undefined ? {} : { repeats_text: text }),
 });
+
+// What follows, to a group or to somebody alone.
+function nextKey({ learned, others_unsure }: Shown, size: number): string {
+  if (others_unsure) return 'feedback.again_others';
+  return `feedback.${learned ? 'learned' : 'again'}${size === 1 ? '_alone' : ''}`;
+}
 
 function leadKey({ right, mine, board, differs_at }: Judged): string {
   if (right) return differs_at === null ? 'feedback.right' : 'feedback.right_other';
