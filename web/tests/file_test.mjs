@@ -178,6 +178,42 @@ describe('a lesson in a file', () => {
     });
   });
 
+  it('shows texts as texts, whatever is in them', async () => {
+    const corpus = [
+      '<img src=x onerror=window.hacked=1>',
+      '</script><script>window.hacked=1</script>',
+      '<svg/onload=window.hacked=1>',
+      '<!--<script>',
+      "javascript:window.hacked=1//';window.hacked=1;'",
+      '{{constructor.constructor("window.hacked=1")()}}',
+      '&lt;b&gt;\u2028<style>*{display:none}</style>',
+    ];
+    const evil = corpus.join(' ');
+    const words = (n) => corpus[n % corpus.length].replaceAll('{', '(').replaceAll('}', ')');
+    const robot = readFileSync(join(here, '../../domains/item_delivery.toml'), 'utf8')
+      .replace(/title +=.*/, `title = ${JSON.stringify(evil)}\ngoal = ${JSON.stringify(words(0))}`)
+      .replace(/\[words\][^]*/, `[words]\n${['rubble', 'recharge', 'step'].map((name, i) => `${name} = { one = ${JSON.stringify(words(i))}, many = ${JSON.stringify(`${words(i + 1)} {n}`)} }`).join('\n')}\n`);
+    writeFileSync(join(folder, 'evil.toml'), robot);
+    const set = (key, value) => ['--set', `${key}=${JSON.stringify(value)}`];
+    const texts = JSON.stringify(corpus);
+    const questions = `[{ id = "a", kind = "choice", text = ${JSON.stringify(evil)}, options = ${texts} }]`;
+    const options = [...set('title', evil), ...set('group.title', evil), ...set('group.goal', evil)];
+    options.push('--set', `group.story=${texts}`, '--set', `group.consent={ version = "1", text = ${texts} }`, '--set', `group.questions=${questions}`);
+    kith('lesson', join(folder, 'evil.toml'), ...options, '-o', join(folder, 'evil.html'));
+    await withReader('evil.html', {}, async (reader) => {
+      const look = async () => {
+        const found = await reader.page.evaluate(() => ({ hacked: window.hacked, images: document.querySelectorAll('img, iframe, script[src], #page script, #page style').length }));
+        assert.deepEqual(found, { images: 0 });
+      };
+      for (const stage of ['check', 'watch', 'predict', 'feedback', 'questions', 'debrief']) {
+        await look();
+        await reach([reader], [stage]);
+        await reader.page.waitForSelector(`main.stage-${stage}`);
+      }
+      await look();
+    });
+  });
+
   it('forgets everything when told to', async () => {
     await withReader('delivery.html', {}, async (reader) => {
       await reach([reader], ['watch']);
