@@ -8,6 +8,7 @@
 #include "beliefs.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/board_json.hpp"
+#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 namespace {
@@ -61,23 +62,28 @@ class LessonReader {
   }
 
   std::map<std::size_t, TeamLessons> read() && {
-    read_table("demonstrations.csv", {"period", "kc", "mdp", "start", "constraint", "member"},
+    read_table(
+        "demonstrations.csv",
+        {columns::kPeriod, columns::kComponent, columns::kMdp, columns::kStart, columns::kConstraint, columns::kMember},
+        [&](const StudyRow& row, TeamLessons& team) {
+          auto& lesson = lesson_of(row, team, row.has(columns::kMember) ? row.count(columns::kMember, 1, kMax) : 0);
+          lesson.shown.push_back(start_of(row));
+          for (auto& one : split(row.text(columns::kConstraint), ';')) lesson.conveyed.push_back(std::move(one));
+        });
+    read_table("responses.csv",
+               {columns::kPeriod, columns::kComponent, columns::kMdp, columns::kStart, columns::kTest, columns::kMember,
+                columns::kCorrect},
                [&](const StudyRow& row, TeamLessons& team) {
-                 auto& lesson = lesson_of(row, team, row.has(5) ? row.count(5, 1, kMax) : 0);
-                 lesson.shown.push_back(start_of(row, 2));
-                 for (auto& one : split(row.text(4), ';')) lesson.conveyed.push_back(std::move(one));
+                 const auto member = row.count(columns::kMember, 1, kMax);
+                 auto& test = lesson_of(row, team, session_of(row, member)).tests[row.count(columns::kTest, 1, kMax)];
+                 test.demo = start_of(row);
+                 test.right[member] = row.boolean(columns::kCorrect);
                });
-    read_table("responses.csv", {"period", "kc", "mdp", "start", "test", "member", "correct"},
+    read_table("progress.csv", {columns::kPeriod, columns::kComponent, columns::kMember, columns::kBelief},
                [&](const StudyRow& row, TeamLessons& team) {
-                 const auto member = row.count(5, 1, kMax);
-                 auto& test = lesson_of(row, team, session_of(row, member)).tests[row.count(4, 1, kMax)];
-                 test.demo = start_of(row, 2);
-                 test.right[member] = row.boolean(6);
+                 const auto member = row.count(columns::kMember, 1, kMax);
+                 lesson_of(row, team, session_of(row, member)).knowledge[member] = row.real(columns::kBelief);
                });
-    read_table("progress.csv", {"period", "kc", "member", "p_bec"}, [&](const StudyRow& row, TeamLessons& team) {
-      const auto member = row.count(2, 1, kMax);
-      lesson_of(row, team, session_of(row, member)).knowledge[member] = row.real(3);
-    });
     return std::move(lessons_);
   }
 
@@ -99,15 +105,15 @@ class LessonReader {
   }
 
   static LessonOfPeriod& lesson_of(const StudyRow& row, TeamLessons& team, std::size_t session) {
-    auto& lesson = team[{session, row.count(0, 0, kMax)}];
-    lesson.component = row.count(1, 1, kMax);
+    auto& lesson = team[{session, row.count(columns::kPeriod, 0, kMax)}];
+    lesson.component = row.count(columns::kComponent, 1, kMax);
     return lesson;
   }
 
-  [[nodiscard]] StartIndex start_of(const StudyRow& row, std::size_t i) const {
+  [[nodiscard]] StartIndex start_of(const StudyRow& row) const {
     const auto& domain = run_.domain;
-    const MdpIndex mdp{row.count(i, 0, domain.num_mdps() - 1)};
-    return atlas_.index({mdp, StateIndex{row.count(i + 1, 0, domain.mdp(mdp).num_states() - 1)}});
+    const MdpIndex mdp{row.count(columns::kMdp, 0, domain.num_mdps() - 1)};
+    return atlas_.index({mdp, StateIndex{row.count(columns::kStart, 0, domain.mdp(mdp).num_states() - 1)}});
   }
 
   const RunFiles& run_;

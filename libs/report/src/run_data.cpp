@@ -58,17 +58,22 @@ class DataReader {
     data_.has_costs = has_costs(run_.study);
     data_.has_forecasts = has_forecasts(run_.study);
     data_.has_estimates = has_estimates(run_.study);
-    Names wanted{"completed", "periods", "knowledge", "area_sr", "demonstrations", "tests", "status"};
-    const auto costs = wanted.size();
-    if (data_.has_costs) wanted.insert(wanted.end(), {"minutes", "person_minutes"});
-    const auto exam = wanted.size();
-    if (data_.has_exam) wanted.insert(wanted.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
-    const auto ahead = wanted.size();
-    if (data_.has_forecasts)
-      wanted.insert(wanted.end(), {"forecast_periods", "forecast_periods_low", "forecast_periods_high"});
-    const bool has_beliefs = has_belief_quality(run_.study);
-    const auto particles = wanted.size();
-    if (has_beliefs) wanted.emplace_back("fewest_particles");
+    const Names wanted{columns::kCompleted,
+                       columns::kPeriods,
+                       columns::kKnowledge,
+                       columns::kAreaSr,
+                       columns::kDemonstrations,
+                       columns::kTests,
+                       columns::kStatus,
+                       columns::kMinutes,
+                       columns::kPersonMinutes,
+                       columns::kExamShareRight,
+                       columns::kExamRegret,
+                       columns::kExamWorstShareRight,
+                       columns::kForecastPeriods,
+                       columns::kForecastPeriodsLow,
+                       columns::kForecastPeriodsHigh,
+                       columns::kFewestParticles};
     const auto rows = read_table("teams.csv", wanted, [&](const auto& row) {
       if (row.team() == last) {
         row.refuse("E0606", "team " + std::to_string(last + 1) + " occurs twice", "remove the second row");
@@ -76,29 +81,32 @@ class DataReader {
       last = row.team();
       const auto most = max_period(row) * row.address().composition.size();
       auto& team = data_.teams[last];
-      team.completed = row.boolean(0);
-      team.skipped = row.text(6) == name_of(SessionStatus::kSkipped);
-      team.periods = static_cast<double>(row.count(1, 0, most));
+      team.completed = row.boolean(columns::kCompleted);
+      team.skipped = row.text(columns::kStatus) == name_of(SessionStatus::kSkipped);
+      team.periods = static_cast<double>(row.count(columns::kPeriods, 0, most));
       team.replicate = row.address().replicate;
       team.person_periods =
           team.periods *
           (row.address().strategy == kBaseline ? 1.0 : static_cast<double>(row.address().composition.size()));
-      team.knowledge = fraction(row, 2);
-      team.area_sr = row.real(3);
-      team.items = static_cast<double>(row.count(4, 0, kMax) + row.count(5, 0, kMax));
+      team.knowledge = fraction(row, columns::kKnowledge);
+      team.area_sr = row.real(columns::kAreaSr);
+      team.items =
+          static_cast<double>(row.count(columns::kDemonstrations, 0, kMax) + row.count(columns::kTests, 0, kMax));
       if (data_.has_costs) {
-        team.minutes = row.real(costs);
-        team.person_minutes = row.real(costs + 1);
+        team.minutes = row.real(columns::kMinutes);
+        team.person_minutes = row.real(columns::kPersonMinutes);
       }
       if (data_.has_exam) {
-        team.exam_share_right = fraction(row, exam);
-        team.exam_regret = row.real(exam + 1);
-        team.exam_worst_share_right = fraction(row, exam + 2);
+        team.exam_share_right = fraction(row, columns::kExamShareRight);
+        team.exam_regret = row.real(columns::kExamRegret);
+        team.exam_worst_share_right = fraction(row, columns::kExamWorstShareRight);
       }
-      if (data_.has_forecasts && row.has(ahead)) {
-        team.forecast = TeamValues::Forecast{row.real(ahead), row.real(ahead + 1), row.real(ahead + 2)};
+      if (row.has(columns::kForecastPeriods)) {
+        team.forecast =
+            TeamValues::Forecast{row.real(columns::kForecastPeriods), row.real(columns::kForecastPeriodsLow),
+                                 row.real(columns::kForecastPeriodsHigh)};
       }
-      if (has_beliefs && row.has(particles)) team.fewest_particles = row.real(particles);
+      if (row.has(columns::kFewestParticles)) team.fewest_particles = row.real(columns::kFewestParticles);
     });
     if (rows == num_teams) return;
     refuse_run(ErrorKind::kInvalidInput, "E0606", run_.folder / "tables" / "teams.csv",
@@ -109,11 +117,9 @@ class DataReader {
   void read_periods() {
     data_.components.resize(data_.teams.size() * data_.num_components);
     std::size_t team = kNoTeam, component = 0, last_period = 0;
-    Names wanted{"period", "kc", "area_sr", "demonstrations", "tests"};
-    if (data_.has_costs) wanted.emplace_back("members");
-    if (data_.has_forecasts) wanted.insert(wanted.end(), {"forecast_done_1", "forecast_done_2", "forecast_done_3"});
-    const auto mastery = wanted.size();
-    if (data_.has_estimates) wanted.insert(wanted.end(), {"p_mastery", "mastery"});
+    Names wanted{columns::kPeriod, columns::kComponent, columns::kAreaSr,           columns::kDemonstrations,
+                 columns::kTests,  columns::kMembers,   columns::kPredictedMastery, columns::kMastery};
+    wanted.insert(wanted.end(), std::begin(columns::kForecastDone), std::end(columns::kForecastDone));
     const bool keeps_costs = run_.spec().exam == ExamLevel::kPeriod;
     if (keeps_costs) costs_.resize(data_.teams.size());
     std::size_t taught = 0;  // periods of the team, over all its sessions
@@ -122,17 +128,18 @@ class DataReader {
       ++taught;
       if (keeps_costs) {
         const auto& pace = run_.study.variants[row.address().variant].pace;
-        const auto demonstrations = row.count(3, 0, kMax), tests = row.count(4, 0, kMax);
-        costs_[row.team()].push_back({static_cast<double>(demonstrations + tests),
-                                      minutes_of(pace, demonstrations, tests),
-                                      static_cast<double>(row.count(5, 0, row.address().composition.size()))});
+        const auto demonstrations = row.count(columns::kDemonstrations, 0, kMax),
+                   tests = row.count(columns::kTests, 0, kMax);
+        costs_[row.team()].push_back(
+            {static_cast<double>(demonstrations + tests), minutes_of(pace, demonstrations, tests),
+             static_cast<double>(row.count(columns::kMembers, 0, row.address().composition.size()))});
       }
-      if (data_.has_forecasts && row.has(6)) calibrate(row, taught);
-      if (data_.has_estimates && row.has(mastery) && row.has(mastery + 1)) {
-        add_mastery(fraction(row, mastery), fraction(row, mastery + 1));
+      if (row.has(columns::kForecastDone[0])) calibrate(row, taught);
+      if (row.has(columns::kPredictedMastery) && row.has(columns::kMastery)) {
+        add_mastery(fraction(row, columns::kPredictedMastery), fraction(row, columns::kMastery));
       }
-      const auto period = period_of(row, 0);
-      const auto kc = component_of(row, 1);
+      const auto period = period_of(row);
+      const auto kc = component_of(row);
       // In the baseline the periods of the next member begin at 1 again.
       const bool first = row.team() != team || kc != component || period <= last_period;
       team = row.team();
@@ -141,7 +148,7 @@ class DataReader {
       auto& values = data_.components[team * data_.num_components + kc];
       ++values.periods;
       if (first) return;
-      const double area = row.real(2);
+      const double area = row.real(columns::kAreaSr);
       if (!(area > 0.0)) row.refuse("E0621", "an area must be greater than 0", "restore the table as the run wrote it");
       ++values.later_periods;
       values.log_area_sum += std::log(area);
@@ -156,7 +163,7 @@ class DataReader {
     if (left == 0) return;  // nothing was left to forecast
     for (std::size_t k = 0; k < data_.calibration.size(); ++k) {
       auto& bins = data_.calibration[k];
-      const double probability = fraction(row, 6 + k);
+      const double probability = fraction(row, columns::kForecastDone[k]);
       const auto tenth = static_cast<std::size_t>(probability * static_cast<double>(bins.size()));
       auto& bin = bins[std::min(tenth, bins.size() - 1)];
       bin.predicted += probability;
@@ -175,16 +182,18 @@ class DataReader {
   }
 
   void read_estimates() {
-    const Names wanted{"period", "kc", "ability", "ability_mean", "ability_low", "ability_high", "proficiency"};
+    const Names wanted{columns::kPeriod,     columns::kComponent,   columns::kAbility,    columns::kAbilityMean,
+                       columns::kAbilityLow, columns::kAbilityHigh, columns::kProficiency};
     read_table("estimates.csv", wanted, [&](const StudyRow& row) {
-      if (row.has(1) || !row.has(2) || !row.has(3)) return;
+      if (row.has(columns::kComponent) || !row.has(columns::kAbility) || !row.has(columns::kAbilityMean)) return;
       const auto series = design_.cells[design_.cell_of_team[row.team()]].series;
-      auto& estimates = data_.ability_estimates[{series, row.count(0, 0, max_period(row))}];
-      const double ability = fraction(row, 2);
+      auto& estimates = data_.ability_estimates[{series, row.count(columns::kPeriod, 0, max_period(row))}];
+      const double ability = fraction(row, columns::kAbility);
       estimates.actual.push_back(ability);
-      estimates.estimated.push_back(fraction(row, 3));
-      estimates.within += ability >= row.real(4) && ability <= row.real(5) ? 1u : 0u;
-      const auto& word = row.text(6);
+      estimates.estimated.push_back(fraction(row, columns::kAbilityMean));
+      estimates.within +=
+          ability >= row.real(columns::kAbilityLow) && ability <= row.real(columns::kAbilityHigh) ? 1u : 0u;
+      const auto& word = row.text(columns::kProficiency);
       if (word != "proficient" && word != "not proficient") return;
       const double from = run_.study.variants[row.address().variant].proficient_ability;
       ++estimates.told;
@@ -200,13 +209,17 @@ class DataReader {
       if (team != kNoTeam) data_.exam_paths[team] = path_of(team, rows);
       rows.clear();
     };
-    read_table("exam.csv", {"period", "kc", "member", "share_right", "regret", "p_bec"}, [&](const StudyRow& row) {
-      if (row.team() != team) finish();
-      team = row.team();
-      if (row.has(1) || !row.has(5)) return;
-      rows.push_back(
-          {row.count(0, 0, max_period(row)), member_of(row, 2), fraction(row, 3), row.real(4), fraction(row, 5)});
-    });
+    read_table("exam.csv",
+               {columns::kPeriod, columns::kComponent, columns::kMember, columns::kShareRight, columns::kRegret,
+                columns::kBelief},
+               [&](const StudyRow& row) {
+                 if (row.team() != team) finish();
+                 team = row.team();
+                 if (row.has(columns::kComponent) || !row.has(columns::kBelief)) return;
+                 rows.push_back({row.count(columns::kPeriod, 0, max_period(row)), member_of(row),
+                                 fraction(row, columns::kShareRight), row.real(columns::kRegret),
+                                 fraction(row, columns::kBelief)});
+               });
     finish();
   }
 
@@ -271,44 +284,48 @@ class DataReader {
   void read_progress() {
     std::size_t team = kNoTeam;
     std::vector<std::size_t> seen;  // shape [members, components]: periods of the component so far
-    read_table("progress.csv", {"period", "kc", "member", "ability", "p_bec"}, [&](const StudyRow& row) {
-      if (row.team() != team) seen.assign(row.address().composition.size() * data_.num_components, 0);
-      team = row.team();
-      const auto period = period_of(row, 0);
-      const auto kc = component_of(row, 1);
-      const auto member = member_of(row, 2);
-      const auto [series, type] = place(row, member);
-      const auto in_component = ++seen[member * data_.num_components + kc];
-      if (row.has(3)) data_.ability[{series, type, kc, in_component}].push_back(fraction(row, 3));
-      data_.knowledge[{series, type, 0, period}].push_back(fraction(row, 4));
-    });
+    read_table("progress.csv",
+               {columns::kPeriod, columns::kComponent, columns::kMember, columns::kAbility, columns::kBelief},
+               [&](const StudyRow& row) {
+                 if (row.team() != team) seen.assign(row.address().composition.size() * data_.num_components, 0);
+                 team = row.team();
+                 const auto period = period_of(row);
+                 const auto kc = component_of(row);
+                 const auto member = member_of(row);
+                 const auto [series, type] = place(row, member);
+                 const auto in_component = ++seen[member * data_.num_components + kc];
+                 if (row.has(columns::kAbility))
+                   data_.ability[{series, type, kc, in_component}].push_back(fraction(row, columns::kAbility));
+                 data_.knowledge[{series, type, 0, period}].push_back(fraction(row, columns::kBelief));
+               });
   }
 
   void read_responses() {
-    read_table("responses.csv", {"period", "test", "member", "correct"}, [&](const StudyRow& row) {
-      const auto period = period_of(row, 0);
-      const auto [series, type] = place(row, member_of(row, 2));
-      auto& values = data_.answers[{series, type, 0, period}];
-      if (row.count(1, 1, kMax) == 1) ++values.people;
-      ++values.answers;
-      if (row.boolean(3)) ++values.correct;
-    });
+    read_table("responses.csv", {columns::kPeriod, columns::kTest, columns::kMember, columns::kCorrect},
+               [&](const StudyRow& row) {
+                 const auto period = period_of(row);
+                 const auto [series, type] = place(row, member_of(row));
+                 auto& values = data_.answers[{series, type, 0, period}];
+                 if (row.count(columns::kTest, 1, kMax) == 1) ++values.people;
+                 ++values.answers;
+                 if (row.boolean(columns::kCorrect)) ++values.correct;
+               });
   }
 
   [[nodiscard]] std::size_t max_period(const StudyRow& row) const {
     return run_.study.variants[row.address().variant].teaching.max_periods;
   }
-  [[nodiscard]] std::size_t period_of(const StudyRow& row, std::size_t i) const {
-    return row.count(i, 1, max_period(row));
+  [[nodiscard]] std::size_t period_of(const StudyRow& row) const {
+    return row.count(columns::kPeriod, 1, max_period(row));
   }
-  [[nodiscard]] std::size_t component_of(const StudyRow& row, std::size_t i) const {
-    return row.count(i, 1, data_.num_components) - 1;
+  [[nodiscard]] std::size_t component_of(const StudyRow& row) const {
+    return row.count(columns::kComponent, 1, data_.num_components) - 1;
   }
-  [[nodiscard]] static std::size_t member_of(const StudyRow& row, std::size_t i) {
-    return row.count(i, 1, row.address().composition.size()) - 1;
+  [[nodiscard]] static std::size_t member_of(const StudyRow& row) {
+    return row.count(columns::kMember, 1, row.address().composition.size()) - 1;
   }
-  [[nodiscard]] static double fraction(const StudyRow& row, std::size_t i) {
-    const double value = row.real(i);
+  [[nodiscard]] static double fraction(const StudyRow& row, std::string_view column) {
+    const double value = row.real(column);
     constexpr double kSlack = 1e-9;  // sums of weights may exceed 1 by rounding
     if (!(value >= 0.0 && value <= 1.0 + kSlack)) {
       row.refuse("E0621", "a mass or an ability must be from 0 to 1", "restore the table as the run wrote it");

@@ -37,7 +37,7 @@ class LayoutSearch {
   template <typename Part, typename R>
   void part(Part R::* /*member*/, const RecordColumn& options = {}) {
     found_ = std::max(found_, options.since);
-    search(Declared<typename detail::CellType<Part>::Type>{});
+    search(columns::Declared<typename detail::CellType<Part>::Type>{});
   }
   template <typename Value, typename R>
   void kept(Value R::* /*member*/, int since = 0) {
@@ -47,10 +47,10 @@ class LayoutSearch {
   requires std::is_class_v<Record>
   void kept(std::vector<Record> R::* /*member*/, int since = 0) {
     found_ = std::max(found_, since);
-    search(Declared<Record>{});
+    search(columns::Declared<Record>{});
   }
   template <typename Record>
-  void search(Declared<Record> record) {
+  void search(columns::Declared<Record> record) {
     declare(*this, record);
   }
   void columns(auto /*member*/, auto /*list*/) {}
@@ -65,7 +65,7 @@ class LayoutSearch {
 int newest_layout() {
   static const int kNewest = [] {
     LayoutSearch layouts;
-    layouts.search(Declared<TeamRecord>{});
+    layouts.search(columns::Declared<TeamRecord>{});
     return layouts.found();
   }();
   return kNewest;
@@ -123,7 +123,7 @@ class Encoder {
   requires std::is_class_v<Record>
   void value(const Record& record) {
     Members<Encoder, const Record> members{*this, record};
-    declare(members, Declared<Record>{});
+    declare(members, columns::Declared<Record>{});
   }
   [[nodiscard]] std::string take() && { return std::move(writer_).take(); }
 
@@ -175,7 +175,7 @@ class Decoder {
   requires std::is_class_v<Record>
   void value(Record& record) {
     Members<Decoder, Record> members{*this, record};
-    declare(members, Declared<Record>{});
+    declare(members, columns::Declared<Record>{});
   }
   [[nodiscard]] bool all_read() const { return reader_.ok() && reader_.at_end(); }
 

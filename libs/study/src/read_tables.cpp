@@ -5,6 +5,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/study/tables.hpp"
+#include "kith/table/column_names.hpp"
 
 namespace kith {
 namespace {
@@ -21,15 +22,15 @@ const std::vector<Column>& columns_of(const std::vector<TableDescription>& table
   return found->columns;
 }
 
+// The size of `columns` if none has this name.
 std::size_t position(const std::vector<Column>& columns, std::string_view name) {
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& one) { return one.name == name; });
-  if (found == columns.end()) throw std::invalid_argument{"read_study_table: no column " + std::string{name}};
   return static_cast<std::size_t>(found - columns.begin());
 }
 
 // The columns that say where a team stands in the design.
 std::vector<std::string> key_names(const Study& study) {
-  std::vector<std::string> names{"strategy", "composition", "replicate", "team"};
+  std::vector<std::string> names{columns::kStrategy, columns::kComposition, columns::kReplicate, columns::kTeam};
   for (const auto& factor : study.variants.front().factors) names.push_back(factor.key);
   return names;
 }
@@ -39,11 +40,11 @@ class TeamKeys {
  public:
   TeamKeys(const std::string& file, const std::vector<Column>& columns, const Study& study, const TeamRegister& teams)
       : file_{file}, study_{study}, teams_{teams} {
-    strategy_ = position(columns, "strategy");
-    composition_ = position(columns, "composition");
+    strategy_ = position(columns, columns::kStrategy);
+    composition_ = position(columns, columns::kComposition);
     for (const auto& factor : study.variants.front().factors) factors_.push_back(position(columns, factor.key));
-    replicate_ = position(columns, "replicate");
-    team_ = position(columns, "team");
+    replicate_ = position(columns, columns::kReplicate);
+    team_ = position(columns, columns::kTeam);
   }
 
   std::size_t team_of(const CsvRow& row) {
@@ -121,13 +122,22 @@ TeamRegister register_teams(const Study& study, std::string_view teams_csv, cons
   return present;
 }
 
-const std::string& StudyRow::text(std::size_t i) const { return std::get<std::string>(row_.cells[i]); }
-bool StudyRow::has(std::size_t i) const { return !std::holds_alternative<std::monostate>(row_.cells[i]); }
-bool StudyRow::boolean(std::size_t i) const { return std::get<bool>(row_.cells[i]); }
-double StudyRow::real(std::size_t i) const { return std::get<double>(row_.cells[i]); }
+const TableCell& StudyRow::cell(std::string_view column) const {
+  const auto found = std::find(names_.begin(), names_.end(), column);
+  if (found == names_.end()) throw std::invalid_argument{"StudyRow: no column " + std::string{column}};
+  return row_.cells[static_cast<std::size_t>(found - names_.begin())];
+}
 
-std::size_t StudyRow::count(std::size_t i, std::size_t min, std::size_t max) const {
-  const auto value = std::get<std::int64_t>(row_.cells[i]);
+const std::string& StudyRow::text(std::string_view column) const { return std::get<std::string>(cell(column)); }
+bool StudyRow::boolean(std::string_view column) const { return std::get<bool>(cell(column)); }
+double StudyRow::real(std::string_view column) const { return std::get<double>(cell(column)); }
+bool StudyRow::has(std::string_view column) const {
+  const bool is_there = std::find(names_.begin(), names_.end(), column) != names_.end();
+  return is_there && !std::holds_alternative<std::monostate>(cell(column));
+}
+
+std::size_t StudyRow::count(std::string_view column, std::size_t min, std::size_t max) const {
+  const auto value = std::get<std::int64_t>(cell(column));
   if (value < 0 || static_cast<std::size_t>(value) < min || static_cast<std::size_t>(value) > max) {
     refuse("E0621",
            std::to_string(value) + " is not from " + std::to_string(min) + " to " + std::to_string(max) +
@@ -148,7 +158,13 @@ std::size_t read_study_table(std::string_view text, const std::string& file, con
   const auto tables = study_tables(study);
   const auto& all = columns_of(tables, table);
   std::vector<Column> columns;
-  for (const auto name : wanted) columns.push_back(all[position(all, name)]);
+  std::vector<std::string_view> names;
+  for (const auto name : wanted) {
+    const auto place = position(all, name);
+    if (place == all.size()) continue;
+    columns.push_back(all[place]);
+    names.push_back(name);
+  }
   for (const auto& name : key_names(study)) columns.push_back(all[position(all, name)]);
   TeamKeys keys{file, columns, study, teams};
   std::size_t rows = 0;
@@ -156,7 +172,7 @@ std::size_t read_study_table(std::string_view text, const std::string& file, con
       text, file, columns,
       [&](const CsvRow& row) {
         const auto team = keys.team_of(row);
-        on_row({file, row, team, teams.addresses[team]});
+        on_row({file, row, names, team, teams.addresses[team]});
         ++rows;
       },
       OtherColumns::kIgnore);

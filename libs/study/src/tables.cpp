@@ -122,7 +122,7 @@ class RecordColumns {
     };
     const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
     RecordColumns<Row, decltype(find)> fields{table_, study_, find, required};
-    declare(fields, Declared<typename Held::Type>{});
+    declare(fields, columns::Declared<typename Held::Type>{});
   }
 
   template <typename Value, typename Record>
@@ -177,7 +177,7 @@ TableOf<RowOf<Record>> record_table(const Study& study, const char* file, const 
   auto table = keyed_table<Row>(study, file, description);
   const auto find = [](const Row& row) { return &row.record; };
   RecordColumns<Row, decltype(find)> fields{table, study, find, true};
-  declare(fields, Declared<Record>{});
+  declare(fields, columns::Declared<Record>{});
   return table;
 }
 

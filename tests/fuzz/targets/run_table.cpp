@@ -16,10 +16,12 @@ void check_cells(const StudyRow& row, const std::vector<Column>& columns) {
   for (std::size_t i = 0; i + kKeys < columns.size(); ++i) {
     const auto& column = columns[i + kKeys];
     if (!column.required) continue;
-    if (column.type == ColumnType::kText) static_cast<void>(row.text(i));
-    if (column.type == ColumnType::kBoolean) static_cast<void>(row.boolean(i));
-    if (column.type == ColumnType::kReal) fuzzing::require(row.real(i) == row.real(i), "no real cell is NaN");
-    if (column.type == ColumnType::kInteger) fuzzing::require(row.count(i, 0, 99) <= 99, "counts are in range");
+    if (column.type == ColumnType::kText) static_cast<void>(row.text(column.name));
+    if (column.type == ColumnType::kBoolean) static_cast<void>(row.boolean(column.name));
+    if (column.type == ColumnType::kReal)
+      fuzzing::require(row.real(column.name) == row.real(column.name), "no real cell is NaN");
+    if (column.type == ColumnType::kInteger)
+      fuzzing::require(row.count(column.name, 0, 99) <= 99, "counts are in range");
   }
 }
 

@@ -21,9 +21,6 @@
 /// The order of the lines is that of the journal, and of the table but for RecordColumn::before.
 namespace kith {
 
-template <typename Record>
-struct Declared {};
-
 /// What is seldom said of a member. Functions may be null.
 struct RecordColumn {
   bool (*when)(const Study&) = nullptr;      ///< Whether the study's tables have the column; null: always.
@@ -50,33 +47,31 @@ struct RecordColumn {
 
 namespace columns {
 
+template <typename Record>
+struct Declared {};
+
 inline constexpr ColumnWords kOfPeriod{kPeriod, "Number of the period, from 1; for the baseline within the member."};
 inline constexpr ColumnWords kOfComponent{kComponent, "Number of the knowledge component, from 1."};
 inline constexpr auto kOfMember = identifier(kMember, "Number of the member, from 1.");
 inline constexpr ColumnWords kOfType{kType, "Letter of the learner type."};
 inline constexpr ColumnWords kOfStart{kStart, "Number of the start state in the MDP, from 0."};
 
-}  // namespace columns
-
 template <typename Fields>
 void declare(Fields& fields, Declared<LearnerRecord>) {
   using R = LearnerRecord;
-  using columns::measure, columns::count;
-  fields.column(&R::member, columns::kOfMember);
-  fields.column(&R::type, columns::kOfType);
+  fields.column(&R::member, kOfMember);
+  fields.column(&R::type, kOfType);
   fields.traits(&R::traits);
-  fields.column(&R::p_bec, {columns::kBelief, "Mass of the final belief in the policy's behaviour equivalence class."});
-  fields.column(&R::periods, count(columns::kPeriods, "Periods the member took part in."));
-  fields.column(&R::tests, count(columns::kTests, "Tests the member was asked."));
-  fields.column(&R::correct, {columns::kCorrect, "Tests answered correctly."});
-  fields.column(
-      &R::exam_share_right,
-      measure(columns::kExamShareRight, "Share of all starts where the member predicts the robot, at the end."),
-      {.when = has_exam});
-  fields.column(
-      &R::exam_regret,
-      measure(columns::kExamRegret, "What these predictions lose, in the units of the domain file's weights."),
-      {.when = has_exam});
+  fields.column(&R::p_bec, {kBelief, "Mass of the final belief in the policy's behaviour equivalence class."});
+  fields.column(&R::periods, count(kPeriods, "Periods the member took part in."));
+  fields.column(&R::tests, count(kTests, "Tests the member was asked."));
+  fields.column(&R::correct, {kCorrect, "Tests answered correctly."});
+  fields.column(&R::exam_share_right,
+                measure(kExamShareRight, "Share of all starts where the member predicts the robot, at the end."),
+                {.when = has_exam});
+  fields.column(&R::exam_regret,
+                measure(kExamRegret, "What these predictions lose, in the units of the domain file's weights."),
+                {.when = has_exam});
   fields.column(&R::exam_questions,
                 {"exam_questions", "Questions of the exam about starts that were neither shown nor tested."},
                 {.when = has_exam});
@@ -86,21 +81,19 @@ void declare(Fields& fields, Declared<LearnerRecord>) {
 template <typename Fields>
 void declare(Fields& fields, Declared<ExamRecord>) {
   using R = ExamRecord;
-  using columns::measure;
-  fields.column(&R::period,
-                {columns::kPeriod, "Number of the period after which the exam took place; 0 before the first."});
-  fields.column(&R::component,
-                {columns::kComponent,
-                 "Number of the knowledge component whose starts the exam is about; missing for all starts."},
-                {.zero_is_missing = true});
-  fields.column(&R::member, columns::kOfMember);
-  fields.column(&R::type, columns::kOfType);
+  fields.column(&R::period, {kPeriod, "Number of the period after which the exam took place; 0 before the first."});
+  fields.column(
+      &R::component,
+      {kComponent, "Number of the knowledge component whose starts the exam is about; missing for all starts."},
+      {.zero_is_missing = true});
+  fields.column(&R::member, kOfMember);
+  fields.column(&R::type, kOfType);
   fields.column(&R::share_right,
-                measure(columns::kShareRight, "Expected share of the starts where the member predicts the robot."));
-  fields.column(&R::regret, measure(columns::kRegret,
+                measure(kShareRight, "Expected share of the starts where the member predicts the robot."));
+  fields.column(&R::regret, measure(kRegret,
                                     "Expected loss of the member's predictions against the robot's paths, in the units "
                                     "of the domain file's weights."));
-  fields.column(&R::p_bec, {columns::kBelief,
+  fields.column(&R::p_bec, {kBelief,
                             "Mass of the member's belief in the policy's behaviour equivalence class; for all starts "
                             "only."});
 }
@@ -108,25 +101,22 @@ void declare(Fields& fields, Declared<ExamRecord>) {
 template <typename Fields>
 void declare(Fields& fields, Declared<EstimateRecord>) {
   using R = EstimateRecord;
-  using columns::measure;
-  fields.column(&R::period,
-                {columns::kPeriod, "Number of the period after which these are the estimates; 0 before the first."});
-  fields.column(&R::component,
-                {columns::kComponent, "Number of the knowledge component; missing in the row about the person."},
+  fields.column(&R::period, {kPeriod, "Number of the period after which these are the estimates; 0 before the first."});
+  fields.column(&R::component, {kComponent, "Number of the knowledge component; missing in the row about the person."},
                 {.zero_is_missing = true});
-  fields.column(&R::member, columns::kOfMember);
-  fields.column(&R::type, columns::kOfType);
+  fields.column(&R::member, kOfMember);
+  fields.column(&R::type, kOfType);
   fields.column(&R::ability,
-                measure(columns::kAbility,
+                measure(kAbility,
                         "True ability with which the member learns when a component begins, after ability_scale. In "
                         "the row of the person only."));
-  fields.column(&R::ability_mean,
-                measure(columns::kAbilityMean,
-                        "The teacher's estimate of this ability: posterior mean. In the row of the person only."));
-  fields.column(&R::ability_low, measure(columns::kAbilityLow,
+  fields.column(
+      &R::ability_mean,
+      measure(kAbilityMean, "The teacher's estimate of this ability: posterior mean. In the row of the person only."));
+  fields.column(&R::ability_low, measure(kAbilityLow,
                                          "Lower limit of the central 80 % of the posterior. In the row of the person "
                                          "only."));
-  fields.column(&R::ability_high, measure(columns::kAbilityHigh,
+  fields.column(&R::ability_high, measure(kAbilityHigh,
                                           "Upper limit of the central 80 % of the posterior. In the row of the person "
                                           "only."));
   fields.column(&R::p_proficient,
@@ -137,7 +127,7 @@ void declare(Fields& fields, Declared<EstimateRecord>) {
       [](const R& record) {
         return record.p_proficient ? std::optional{proficiency_word(*record.p_proficient)} : std::nullopt;
       },
-      {columns::kProficiency,
+      {kProficiency,
        "'proficient' if p_proficient is at least 0.8, 'not proficient' if it is at most 0.2, else 'cannot tell yet'. "
        "In the row of the person only."});
   fields.column(&R::p_knew, measure("p_knew",
@@ -157,46 +147,44 @@ void declare(Fields& fields, Declared<EstimateRecord>) {
 template <typename Fields>
 void declare(Fields& fields, Declared<PeriodForecast>) {
   using R = PeriodForecast;
-  fields.column(&R::periods_left,
-                columns::measure("forecast_periods_left", "Periods left, as expected after this one: mean."));
+  fields.column(&R::periods_left, measure("forecast_periods_left", "Periods left, as expected after this one: mean."));
   fields.columns(&R::done_within, forecast_done_columns);
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<PeriodMastery>) {
   using R = PeriodMastery;
-  fields.column(&R::predicted, columns::measure(columns::kPredictedMastery,
-                                                "Predicted probability that all members who took part answer a random "
-                                                "test of the component correctly, after the feedback."));
-  fields.column(&R::actual,
-                columns::measure(columns::kMastery, "The same probability under the members' own beliefs."));
+  fields.column(&R::predicted, measure(kPredictedMastery,
+                                       "Predicted probability that all members who took part answer a random "
+                                       "test of the component correctly, after the feedback."));
+  fields.column(&R::actual, measure(kMastery, "The same probability under the members' own beliefs."));
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<PeriodRecord>) {
   using R = PeriodRecord;
-  fields.column(&R::period, columns::kOfPeriod);
+  fields.column(&R::period, kOfPeriod);
   fields.kept(&R::member);
-  fields.column(&R::session, {columns::kSession, "Number of the team's session, from 1."},
-                {.when = has_subgroups, .before = columns::kPeriod});
+  fields.column(&R::session, {kSession, "Number of the team's session, from 1."},
+                {.when = has_subgroups, .before = kPeriod});
   fields.kept(&R::members);
-  fields.column(&R::component, columns::kOfComponent);
+  fields.column(&R::component, kOfComponent);
   fields.column(&R::source, {"source", "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."});
-  fields.column(&R::demonstrations, columns::count(columns::kDemonstrations, "Demonstrations shown."));
+  fields.column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown."));
   fields.column(&R::area_sr,
-                {columns::kAreaSr, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"});
+                {kAreaSr, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"});
   fields.column(&R::running_area_sr, {"running_area_sr",
                                       "The same together with the components learned before; what earlier lessons of "
                                       "this component taught does not count.",
                                       "sr"});
-  fields.column(&R::tests, columns::count(columns::kTests, "Tests asked of every member."));
+  fields.column(&R::tests, count(kTests, "Tests asked of every member."));
   fields.column(&R::all_correct, {"all_correct", "Whether every member answered every test correctly."});
   fields.column(&R::excluded, {"excluded", "Members left out of the common belief because their answers conflict."});
   fields.column(&R::untested, {"untested", "Taught constraints that nothing can test."});
   fields.column(&R::gain, {"gain",
                            "Logarithm of the area of what was learned before (the prior and the components learned) "
                            "over running_area_sr; 0 if a lesson is shown again."});
-  fields.derived(&R::members, {columns::kMembers, "Members who took part."}, {.when = has_costs});
+  fields.derived(&R::members, {kMembers, "Members who took part."}, {.when = has_costs});
   fields.part(&R::forecast, {.when = has_forecasts});
   fields.part(&R::mastery, {.when = has_estimates});
   fields.columns(&R::p_bec, rule_columns);
@@ -214,50 +202,48 @@ void declare(Fields& fields, Declared<BeliefSnapshot>) {
 template <typename Fields>
 void declare(Fields& fields, Declared<DemonstrationRecord>) {
   using R = DemonstrationRecord;
-  fields.column(&R::period, columns::kOfPeriod);
-  fields.column(&R::member,
-                columns::identifier(columns::kMember, "Who watched, for the baseline; missing if everybody did."),
+  fields.column(&R::period, kOfPeriod);
+  fields.column(&R::member, identifier(kMember, "Who watched, for the baseline; missing if everybody did."),
                 {.zero_is_missing = true});
-  fields.column(&R::component, columns::kOfComponent);
+  fields.column(&R::component, kOfComponent);
   fields.column(&R::demonstration, {"demonstration", "Number of the demonstration in the period, from 1."});
-  fields.column(&R::mdp, {columns::kMdp, "Number of the MDP, from 0."});
-  fields.column(&R::start, columns::kOfStart);
-  fields.column(
-      &R::constraints,
-      {columns::kConstraint, "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'."});
+  fields.column(&R::mdp, {kMdp, "Number of the MDP, from 0."});
+  fields.column(&R::start, kOfStart);
+  fields.column(&R::constraints,
+                {kConstraint, "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'."});
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<ResponseRecord>) {
   using R = ResponseRecord;
-  fields.column(&R::period, columns::kOfPeriod);
-  fields.column(&R::component, columns::kOfComponent);
-  fields.column(&R::test, {columns::kTest, "Number of the test in the period, from 1."});
-  fields.column(&R::member, columns::kOfMember);
-  fields.column(&R::mdp, {columns::kMdp, "Number of the MDP of the test, from 0."});
-  fields.column(&R::start, columns::kOfStart);
-  fields.column(&R::correct, {columns::kCorrect, "Whether the answer is as good as the robot's path."});
+  fields.column(&R::period, kOfPeriod);
+  fields.column(&R::component, kOfComponent);
+  fields.column(&R::test, {kTest, "Number of the test in the period, from 1."});
+  fields.column(&R::member, kOfMember);
+  fields.column(&R::mdp, {kMdp, "Number of the MDP of the test, from 0."});
+  fields.column(&R::start, kOfStart);
+  fields.column(&R::correct, {kCorrect, "Whether the answer is as good as the robot's path."});
   fields.column(&R::regret,
-                {columns::kRegret, "Return of the robot's path minus that of the answer; missing without an answer."});
+                {kRegret, "Return of the robot's path minus that of the answer; missing without an answer."});
   fields.column(
       &R::answer,
-      {"answer", "Feature counts of the answer, or expectations of them, separated by blanks; missing without one."});
-  fields.column(&R::constraints,
-                {columns::kConstraint,
-                 "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'."});
-  fields.column(&R::covered, {"covered", "Half-spaces that the test examines and that its feedback teaches."});
+      {kAnswer, "Feature counts of the answer, or expectations of them, separated by blanks; missing without one."});
+  fields.column(
+      &R::constraints,
+      {kConstraint, "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'."});
+  fields.column(&R::covered, {kCovered, "Half-spaces that the test examines and that its feedback teaches."});
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<ProgressRecord>) {
   using R = ProgressRecord;
-  fields.column(&R::period, columns::kOfPeriod);
-  fields.column(&R::component, columns::kOfComponent);
-  fields.column(&R::member, columns::kOfMember);
-  fields.column(&R::type, columns::kOfType);
-  fields.column(&R::ability, {columns::kAbility, "Ability while watching the demonstrations, before ability_scale."},
+  fields.column(&R::period, kOfPeriod);
+  fields.column(&R::component, kOfComponent);
+  fields.column(&R::member, kOfMember);
+  fields.column(&R::type, kOfType);
+  fields.column(&R::ability, {kAbility, "Ability while watching the demonstrations, before ability_scale."},
                 {.required = all_have_ability});
-  fields.column(&R::p_bec, {columns::kBelief,
+  fields.column(&R::p_bec, {kBelief,
                             "Mass of the member's own belief in the policy's behaviour equivalence class, after the "
                             "feedback."});
   fields.column(&R::all_correct, {"all_correct", "Whether the member answered every test of the period correctly."});
@@ -267,21 +253,18 @@ template <typename Fields>
 void declare(Fields& fields, Declared<TeamCost>) {
   using R = TeamCost;
   fields.column(&R::person_periods, {"person_periods", "Periods that members took part in, summed over members."});
-  fields.column(&R::minutes,
-                columns::measure(columns::kMinutes, "Teaching time by the study's pace, summed over sessions.", "min"));
-  fields.column(&R::person_minutes,
-                columns::measure(columns::kPersonMinutes, "Time of the members, summed over members.", "min"));
+  fields.column(&R::minutes, measure(kMinutes, "Teaching time by the study's pace, summed over sessions.", "min"));
+  fields.column(&R::person_minutes, measure(kPersonMinutes, "Time of the members, summed over members.", "min"));
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<TeamForecast>) {
   using R = TeamForecast;
-  using columns::measure;
   constexpr auto* kLow = "Lower limit of the central 80 % of the forecast.";
   constexpr auto* kHigh = "Upper limit of the central 80 % of the forecast.";
-  fields.column(&R::periods, measure(columns::kForecastPeriods, "Expected periods, before the first lesson: mean."));
-  fields.column(&R::periods_low, measure(columns::kForecastPeriodsLow, kLow));
-  fields.column(&R::periods_high, measure(columns::kForecastPeriodsHigh, kHigh));
+  fields.column(&R::periods, measure(kForecastPeriods, "Expected periods, before the first lesson: mean."));
+  fields.column(&R::periods_low, measure(kForecastPeriodsLow, kLow));
+  fields.column(&R::periods_high, measure(kForecastPeriodsHigh, kHigh));
   fields.column(&R::minutes, measure("forecast_minutes", "Expected minutes, before the first lesson: mean.", "min"));
   fields.column(&R::minutes_low, measure("forecast_minutes_low", kLow, "min"));
   fields.column(&R::minutes_high, measure("forecast_minutes_high", kHigh, "min"));
@@ -290,35 +273,31 @@ void declare(Fields& fields, Declared<TeamForecast>) {
 template <typename Fields>
 void declare(Fields& fields, Declared<TeamExam>) {
   using R = TeamExam;
-  using columns::measure;
-  fields.column(&R::share_right, measure(columns::kExamShareRight,
+  fields.column(&R::share_right, measure(kExamShareRight,
                                          "Share of all starts of the domain where members predict the robot, under "
                                          "their final beliefs; mean over members."));
-  fields.column(&R::regret, measure(columns::kExamRegret,
+  fields.column(&R::regret, measure(kExamRegret,
                                     "What the members' predictions lose against the robot's paths, over all starts; "
                                     "mean over members, in the units of the domain file's weights."));
-  fields.column(&R::worst_share_right, measure(columns::kExamWorstShareRight, "The smallest share_right of a member."));
+  fields.column(&R::worst_share_right, measure(kExamWorstShareRight, "The smallest share_right of a member."));
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<TeamRecord>) {
   using R = TeamRecord;
-  fields.column(&R::seed_address,
-                {columns::kSeedAddress, "Address of the team's random numbers: seed/composition/replicate."});
+  fields.column(&R::seed_address, {kSeedAddress, "Address of the team's random numbers: seed/composition/replicate."});
   fields.column(
       &R::status,
-      {columns::kStatus,
+      {kStatus,
        "'complete' if every knowledge component was learned or is implied by the lessons of others; 'skipped' if "
        "something stayed open that nothing could show; 'max_periods' if teaching stopped before."});
-  fields.derived(&R::completed, {columns::kCompleted, "Whether the status is 'complete'."});
-  fields.column(&R::periods,
-                columns::count(columns::kPeriods, "Interaction periods; for the baseline the sum over members."));
-  fields.column(&R::demonstrations, columns::count(columns::kDemonstrations, "Demonstrations shown, in all periods."));
-  fields.column(&R::tests,
-                columns::count(columns::kTests, "Tests asked, in all periods; each of them of every member."));
-  fields.column(&R::knowledge,
-                {columns::kKnowledge,
-                 "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."});
+  fields.derived(&R::completed, {kCompleted, "Whether the status is 'complete'."});
+  fields.column(&R::periods, count(kPeriods, "Interaction periods; for the baseline the sum over members."));
+  fields.column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown, in all periods."));
+  fields.column(&R::tests, count(kTests, "Tests asked, in all periods; each of them of every member."));
+  fields.column(
+      &R::knowledge,
+      {kKnowledge, "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."});
   fields.column(&R::knowledge_min, {"knowledge_min", "The smallest of these masses."});
   fields.column(&R::components_learned,
                 {"kcs_learned", "Knowledge components learned; for the baseline the sum over members."});
@@ -326,7 +305,7 @@ void declare(Fields& fields, Declared<TeamRecord>) {
       &R::components_skipped,
       {"kcs_skipped",
        "Knowledge components left out, because nothing that could be shown adds to what was taught, or by design."});
-  fields.column(&R::area_sr, {columns::kAreaSr, "Mean over periods of the area in periods.csv.", "sr"});
+  fields.column(&R::area_sr, {kAreaSr, "Mean over periods of the area in periods.csv.", "sr"});
   fields.part(&R::cost, {.when = has_costs});
   fields.part(&R::forecast, {.when = has_forecasts});
   fields.kept(&R::learners);
@@ -340,10 +319,11 @@ void declare(Fields& fields, Declared<TeamRecord>) {
   fields.part(&R::exam, {.when = has_exam, .required = has_exam});
   // Before the columns of the exam, where these are.
   fields.column(&R::fewest_particles,
-                columns::measure(columns::kFewestParticles,
-                                 "The smallest effective number of particles of a member's belief that satisfied what "
-                                 "the member was just shown. Below 10 the belief is impoverished."),
-                {.when = has_belief_quality, .required = has_belief_quality, .before = columns::kExamShareRight});
+                measure(kFewestParticles,
+                        "The smallest effective number of particles of a member's belief that satisfied what "
+                        "the member was just shown. Below 10 the belief is impoverished."),
+                {.when = has_belief_quality, .required = has_belief_quality, .before = kExamShareRight});
 }
 
+}  // namespace columns
 }  // namespace kith
