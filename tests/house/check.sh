@@ -144,6 +144,15 @@ check_rows() {
   } | none
 }
 
+# What reads a column names it by the constant that the column is declared with.
+check_columns() {
+  local names
+  names=$(files '*.hpp' | grep '^libs/table/include/kith/table/column_names.hpp$' | xargs -r cat |
+    grep -oE '"[a-z_0-9]+"' | tr -d '"' | sort -u | paste -sd'|')
+  files '*.cpp' | grep -E '^libs/(analysis|fit|report)/src/' |
+    search -nE "(\\.|required_)(factor|numbers|texts|cells|boolean|integer|text|count|has)\\(([a-z]+, )?\"(${names:-none})\"" | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"

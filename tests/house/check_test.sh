@@ -14,11 +14,16 @@ tidy_tree() {
   printf 'add_subdirectory(low)\nadd_subdirectory(high)\n' >libs/CMakeLists.txt
   printf 'kith_module(low)\n' >libs/low/CMakeLists.txt
   printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
-  printf 'add_subdirectory(live)\n' >>libs/CMakeLists.txt
+  printf 'add_subdirectory(live)\nadd_subdirectory(table)\nadd_subdirectory(report)\n' >>libs/CMakeLists.txt
   printf 'kith_module(live)\n' >libs/live/CMakeLists.txt
-  printf '## Layers\n\n```text\nlow high  what is below\nlive      people\n```\n\n## Read first\n' >docs/architecture.md
+  mkdir -p libs/table/include/kith/table libs/report/src
+  printf 'kith_module(table)\n' >libs/table/CMakeLists.txt
+  printf 'kith_module(report)\n' >libs/report/CMakeLists.txt
+  printf '## Layers\n\n```text\nlow high  what is below\nlive table report  people\n```\n\n## Read first\n' >docs/architecture.md
   printf '#pragma once\nstruct Left {\n  constexpr Kind kKind{"left", "leave"};\n};\n' >libs/live/include/kith/live/room_event.hpp
   printf '// Tells kinds apart.\n' >libs/live/src/room.cpp
+  printf '#pragma once\ninline constexpr char kTeam[] = "team";\n' >libs/table/include/kith/table/column_names.hpp
+  printf '// Reads tables.\n' >libs/report/src/run_data.cpp
   printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
   printf '@misc{known2001,\n}\n' >docs/references.bib
   printf '```cpp libs/low/include/x.hpp\nint x();\n```\n' >docs/quotes.md
@@ -43,7 +48,7 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma layers newline links map quotes citations errors types rows; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma layers newline links map quotes citations errors types rows columns; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
@@ -51,6 +56,7 @@ breaks pragma libs/low/include/y.hpp '// first\n#pragma once\n'
 breaks layers libs/low/CMakeLists.txt 'kith_module(low DEPENDS kith::high)\n'
 breaks layers libs/low/CMakeLists.txt 'kith_module(low PRIVATE_DEPENDS kith::high)\n'
 breaks newline README.md 'no end'
+breaks columns libs/report/src/run_data.cpp 'auto team = data.factor("team");\n'
 breaks newline libs/low/include/x.hpp 'int y();  \n'
 breaks links README.md '[gone](docs/gone.md)\n'
 breaks map docs/architecture.md 'see x.hpp, libs/low/include/x.hpp and libs/low/x.hpp\n'

@@ -4,6 +4,7 @@
 
 #include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
+#include "kith/table/column_names.hpp"
 #include "kith/toml/document.hpp"
 #include "model_means.hpp"
 #include "outcomes.hpp"
@@ -91,7 +92,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
     analysis.notes.push_back("the run is incomplete, and all results describe only the teams that are there: " + what);
   const auto responses = outcomes_of(teams);
   // What a design allows is the same for all responses.
-  const auto model = team_model(teams, group_teams(teams), "periods", teams.periods);
+  const auto model = team_model(teams, group_teams(teams), columns::kPeriods, teams.periods);
   check_comparisons(model.factors, options);
   auto planned = options;
   for (auto& contrast : contrasts_of(run)) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "kith/random/distributions.hpp"
+#include "kith/table/column_names.hpp"
 #include "model_means.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
@@ -15,8 +16,8 @@ constexpr std::size_t kReplicates = 12;  // enough for every analysis
 
 RunTeams made_up_teams(const PlannedDesign& design) {
   RunTeams teams;
-  teams.strategy = {"strategy", design.strategies, {}};
-  teams.composition = {"composition", design.compositions, {}};
+  teams.strategy = {columns::kStrategy, design.strategies, {}};
+  teams.composition = {columns::kComposition, design.compositions, {}};
   RandomStream random{1};
   for (std::size_t s = 0; s < design.strategies.size(); ++s) {
     for (std::size_t c = 0; c < design.compositions.size(); ++c) {
@@ -64,7 +65,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
   };
   const auto responses = outcomes_of(teams);
   if (!rows.empty()) {
-    const auto factors = team_model(teams, rows, "knowledge", teams.knowledge).factors;
+    const auto factors = team_model(teams, rows, columns::kKnowledge, teams.knowledge).factors;
     std::vector<PlannedContrast> testable;
     for (const auto& contrast : design.contrasts) {
       if (is_testable(factors, contrast)) testable.push_back(contrast);

@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "kith/table/column_names.hpp"
 #include "model.hpp"
 
 namespace kith {
@@ -27,8 +28,6 @@ constexpr std::array<std::string_view, 14> kAttributes{"age",    "blood",       
                                                        "risk",   "sex",          "treatment", "weight"};
 // Of what people are asked or shown. No random intercepts are made of them unasked: the tests may be about just these.
 constexpr std::array<std::string_view, 6> kItems{"item", "stimulus", "task", "question", "problem", "scenario"};
-// In kith's own tables, the address of the random numbers that draw the people of a team.
-constexpr std::string_view kSeedAddress = "seed_address";
 
 // "participant_id" and "participantID" have the words participant and id.
 std::vector<std::string> words_of(const std::string& name) {
@@ -80,7 +79,7 @@ std::vector<Identifier> identifiers_of(const Dataset& rows, const std::vector<st
   for (const auto& column : rows.columns()) {
     if (std::find(used.begin(), used.end(), column) != used.end()) continue;
     const auto kind = rows.kind(column);
-    const bool is_stated = kind == ColumnKind::kIdentifier || column == kSeedAddress;
+    const bool is_stated = kind == ColumnKind::kIdentifier || column == columns::kSeedAddress;
     if (!is_stated && (kind != ColumnKind::kUnspecified || !is_identifier_name(column))) continue;
     const auto& cells = rows.cells(column);
     const auto has_value = [](const auto& cell) { return cell.has_value(); };
@@ -105,13 +104,13 @@ std::vector<std::string> items_of(const Dataset& rows, const std::vector<std::st
 // In kith's own tables without that address: replicates of a composition are the same people under every strategy,
 // unless the study says otherwise.
 std::vector<std::vector<std::string>> shared_people_of(const Dataset& rows, const std::vector<std::string>& used) {
-  for (const auto* const column : {"strategy", "composition", "replicate", "team"}) {
+  for (const auto* const column : {columns::kStrategy, columns::kComposition, columns::kReplicate, columns::kTeam}) {
     if (!rows.has(column)) return {};
   }
-  const bool is_used = std::find(used.begin(), used.end(), "replicate") != used.end();
-  if (rows.has(kSeedAddress) || is_used) return {};
-  std::vector<std::vector<std::string>> people{{"composition", "replicate"}};
-  if (rows.has("member")) people.push_back({"composition", "replicate", "member"});
+  const bool is_used = std::find(used.begin(), used.end(), columns::kReplicate) != used.end();
+  if (rows.has(columns::kSeedAddress) || is_used) return {};
+  std::vector<std::vector<std::string>> people{{columns::kComposition, columns::kReplicate}};
+  if (rows.has(columns::kMember)) people.push_back({columns::kComposition, columns::kReplicate, columns::kMember});
   return people;
 }
 

@@ -7,6 +7,7 @@
 #include "kith/stats/clustered_tests.hpp"
 #include "kith/stats/mixed_model.hpp"
 #include "kith/stats/moments.hpp"
+#include "kith/table/column_names.hpp"
 #include "model_means.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
@@ -78,7 +79,7 @@ PeopleDifferences differences_of_people(const RunTeams& teams, const BeliefTeams
     sums.sum.at(beliefs.belief.codes[i]) += values[row];
     ++sums.n.at(beliefs.belief.codes[i]);
   }
-  PeopleDifferences differences{{}, {"composition", teams.composition.levels, {}}};
+  PeopleDifferences differences{{}, {columns::kComposition, teams.composition.levels, {}}};
   for (const auto& [address, sums] : people) {
     if (sums.n[0] == 0 || sums.n[1] == 0) continue;
     differences.values.push_back(sums.sum[0] / static_cast<double>(sums.n[0]) -
@@ -156,10 +157,10 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
   }
   auto planned = options;
   planned.contrasts = {difference_of_means("team beliefs - individual beliefs", found->team, found->individual)};
-  planned.contrasts.front().factor = "strategy";
+  planned.contrasts.front().factor = columns::kStrategy;
   planned.by.clear();
   const auto composition = selected(teams.composition, found->rows);
-  if (composition.levels.size() > 1) planned.by = {"composition"};
+  if (composition.levels.size() > 1) planned.by = {columns::kComposition};
   add_contrast_results(*fit, planned, finding, finding.tables);
   if (!model.groups.empty())
     add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
@@ -182,7 +183,7 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
   const auto label = outcome_words(response).label;
   Finding finding{.id = response + "-variation",
                   .topic = fmt::format("Variation of {} under team and individual beliefs", label),
-                  .question = response == "periods"
+                  .question = response == columns::kPeriods
                                   ? "Does the number of periods vary less between teams if demonstrations are chosen "
                                     "for the team's belief?"
                                   : fmt::format("Does {} vary less between teams if demonstrations are chosen for "
@@ -194,7 +195,7 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
   const auto people = shared_people(teams, found->rows);
   const bool is_clustered = !people.empty();
   ResultTable table{"Variance under team beliefs over that under individual beliefs",
-                    {{"composition", Kind::kText},
+                    {{columns::kComposition, Kind::kText},
                      {"n, team", Kind::kCount},
                      {"sd, team"},
                      {"n, individual", Kind::kCount},

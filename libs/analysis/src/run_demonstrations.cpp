@@ -6,6 +6,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/stats/moments.hpp"
+#include "kith/table/column_names.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -13,7 +14,7 @@ namespace {
 
 using Kind = ResultKind;
 
-const std::vector<std::string> kColumns{"team", "period", "kc", "area_sr"};
+const std::vector<std::string> kColumns{columns::kTeam, columns::kPeriod, columns::kComponent, columns::kAreaSr};
 
 // "from -2.1 (joint) to -1.8 (common)": from the strategy that conveys most (the smallest area) to the one that conveys
 // least.
@@ -55,9 +56,9 @@ ConveyedAreas read_areas(const RunTeams& teams, const PublishedRun& run) {
   const std::string table = "tables/periods.csv";
   if (!run.has(table)) return areas;
   const auto data = Dataset::parse(run.read(table), (run.folder() / table).string(), kColumns);
-  const auto team = data.factor("team");
-  const auto component = data.factor("kc");
-  const auto area = data.numbers("area_sr");
+  const auto team = data.factor(columns::kTeam);
+  const auto component = data.factor(columns::kComponent);
+  const auto area = data.numbers(columns::kAreaSr);
   double sum = 0.0;
   std::size_t n = 0;  // periods of the component so far
   const auto finish = [&](std::size_t row) {
@@ -83,9 +84,9 @@ ConveyedAreas read_areas(const RunTeams& teams, const PublishedRun& run) {
 
 std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun& run, const AnalysisOptions& options) {
   const auto rows = group_teams(teams);
-  const auto model = team_model(teams, rows, "area_sr", teams.area_sr);
+  const auto model = team_model(teams, rows, columns::kAreaSr, teams.area_sr);
   if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
-  auto finding = analyze_model(model, options, RandomStream{options.seed}.split("area_sr"));
+  auto finding = analyze_model(model, options, RandomStream{options.seed}.split(columns::kAreaSr));
   finding.id = "demonstrations";
   finding.topic = "Manipulation check";
   finding.response = "how much the demonstrations convey";
@@ -97,7 +98,7 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
     finding.warnings.push_back("periods were not recorded, so components cannot be analysed separately");
     return finding;
   }
-  const auto components = make_factor("kc", areas.component);
+  const auto components = make_factor(columns::kComponent, areas.component);
   for (std::size_t level = 0; level < components.levels.size(); ++level) {
     std::vector<std::size_t> part_teams;
     std::vector<double> values;

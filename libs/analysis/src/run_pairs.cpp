@@ -8,6 +8,7 @@
 
 #include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/moments.hpp"
+#include "kith/table/column_names.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
@@ -132,8 +133,8 @@ void add_blocked(const Blocks& blocks, double alpha, Finding& finding) {
       block.push_back(std::to_string(b));
     }
   }
-  const auto within = make_factor("strategy", strategy), between = make_factor("composition", composition),
-             people = make_factor("people", block);
+  const auto within = make_factor(columns::kStrategy, strategy),
+             between = make_factor(columns::kComposition, composition), people = make_factor("people", block);
   const auto table = blocked_anova(values, within, between, people);
   if (!table) {
     finding.warnings.push_back("no analysis of variance within people: " + table.reason());
@@ -177,7 +178,7 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
                   .response = std::string{label},
                   .question = fmt::format("Do strategies differ in {} when they teach the same people?", label),
                   .model = response + " ~ strategy within people"};
-  ComparisonFamily family{.kind = ComparisonFamily::Kind::kSamePeople, .factor = "strategy"};
+  ComparisonFamily family{.kind = ComparisonFamily::Kind::kSamePeople, .factor = columns::kStrategy};
   std::vector<double> p_values;
   for (std::size_t a = 0; a < blocks.strategies.size(); ++a) {
     for (std::size_t b = a + 1; b < blocks.strategies.size(); ++b) {
@@ -332,7 +333,7 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
   Finding finding{.id = response + "-baseline",
                   .topic = "Taught together or alone",
                   .response = std::string{words.label},
-                  .question = response == "periods"
+                  .question = response == columns::kPeriods
                                   ? "Does teaching together change how many periods are needed?"
                                   : fmt::format("Does teaching together change final {}?", words.label),
                   .model = response + " ~ taught together or alone"};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
+#include "kith/table/column_names.hpp"
 #include "kith/table/csv_reader.hpp"
 #include "kith/table/table_text.hpp"
 #include "kith/toml/document.hpp"
@@ -13,16 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kTeamColumns{"strategy",  "composition", "replicate", "team",   "seed_address",
-                                            "completed", "periods",     "knowledge", "area_sr"};
-const std::vector<std::string> kExamColumns{"exam_share_right", "exam_regret", "exam_worst_share_right"};
+const std::vector<std::string> kTeamColumns{columns::kStrategy, columns::kComposition, columns::kReplicate,
+                                            columns::kTeam,     columns::kSeedAddress, columns::kCompleted,
+                                            columns::kPeriods,  columns::kKnowledge,   columns::kAreaSr};
+const std::vector<std::string> kExamColumns{columns::kExamShareRight, columns::kExamRegret,
+                                            columns::kExamWorstShareRight};
 
 // The study's varied keys stand between composition and replicate. Where these are missing, or others stand between
 // them, that is for the reader of the columns to say.
 std::vector<std::string> varied_keys(const std::vector<Column>& columns) {
   const auto named = [](const char* name) { return [name](const Column& column) { return column.name == name; }; };
-  const auto begin = std::find_if(columns.begin(), columns.end(), named("composition"));
-  const auto end = std::find_if(begin, columns.end(), named("replicate"));
+  const auto begin = std::find_if(columns.begin(), columns.end(), named(columns::kComposition));
+  const auto end = std::find_if(begin, columns.end(), named(columns::kReplicate));
   std::vector<std::string> keys;
   if (end == columns.end()) return keys;
   for (auto column = begin + 1; column != end; ++column) {
@@ -65,16 +68,16 @@ RunTeams read_teams(const PublishedRun& run) {
   const bool has_exam =
       std::any_of(header.begin(), header.end(), [](const Column& one) { return one.name == kExamColumns.front(); });
   const bool has_status =
-      std::any_of(header.begin(), header.end(), [](const Column& one) { return one.name == "status"; });
+      std::any_of(header.begin(), header.end(), [](const Column& one) { return one.name == columns::kStatus; });
   auto wanted = kTeamColumns;
-  if (has_status) wanted.emplace_back("status");
+  if (has_status) wanted.emplace_back(columns::kStatus);
   wanted.insert(wanted.end(), keys.begin(), keys.end());
   if (has_exam) wanted.insert(wanted.end(), kExamColumns.begin(), kExamColumns.end());
   const auto data = Dataset::parse(text, file.string(), wanted);
   RunTeams teams;
   teams.num_features = features_of_domain(run);
-  teams.strategy = data.factor("strategy");
-  teams.composition = data.factor("composition");
+  teams.strategy = data.factor(columns::kStrategy);
+  teams.composition = data.factor(columns::kComposition);
   teams.setting.resize(data.num_rows());
   for (const auto& key : keys) {
     teams.varied.push_back(data.factor(key));
@@ -82,20 +85,20 @@ RunTeams read_teams(const PublishedRun& run) {
     for (std::size_t i = 0; i < data.num_rows(); ++i)
       teams.setting[i] += key + "=" + factor.levels[factor.codes[i]] + " ";
   }
-  teams.replicate = required_texts(data, "replicate");
-  teams.team = required_texts(data, "team");
-  teams.seed_address = required_texts(data, "seed_address");
-  for (const double value : required_numbers(data, "completed")) teams.completed.push_back(value != 0.0);
+  teams.replicate = required_texts(data, columns::kReplicate);
+  teams.team = required_texts(data, columns::kTeam);
+  teams.seed_address = required_texts(data, columns::kSeedAddress);
+  for (const double value : required_numbers(data, columns::kCompleted)) teams.completed.push_back(value != 0.0);
   if (has_status) {
-    for (const auto& status : required_texts(data, "status")) teams.skipped.push_back(status == "skipped");
+    for (const auto& status : required_texts(data, columns::kStatus)) teams.skipped.push_back(status == "skipped");
   }
-  teams.periods = required_numbers(data, "periods");
-  teams.knowledge = required_numbers(data, "knowledge");
-  teams.area_sr = required_numbers(data, "area_sr");
+  teams.periods = required_numbers(data, columns::kPeriods);
+  teams.knowledge = required_numbers(data, columns::kKnowledge);
+  teams.area_sr = required_numbers(data, columns::kAreaSr);
   if (has_exam) {
-    teams.exam_share_right = required_numbers(data, "exam_share_right");
-    teams.exam_regret = required_numbers(data, "exam_regret");
-    teams.exam_worst_share_right = required_numbers(data, "exam_worst_share_right");
+    teams.exam_share_right = required_numbers(data, columns::kExamShareRight);
+    teams.exam_regret = required_numbers(data, columns::kExamRegret);
+    teams.exam_worst_share_right = required_numbers(data, columns::kExamWorstShareRight);
   }
   if (teams.size() == 0)
     throw Error{{Diagnostic{.id = "E0906",
@@ -147,7 +150,7 @@ ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows
   const bool compositions = add(teams.composition);
   for (const auto& key : teams.varied) add(key);
   if (strategies && compositions) data.terms.push_back({0, 1});
-  data.is_count = response == "periods";
+  data.is_count = response == columns::kPeriods;
   if (data.is_count) data.observed = selected(teams.completed, rows);
   data.groups = shared_people(teams, rows);
   return data;

@@ -15,6 +15,7 @@
 #include "kith/files/published_run.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
+#include "kith/table/column_names.hpp"
 #include "open_table.hpp"
 #include "vectors.hpp"
 
@@ -170,7 +171,7 @@ class RunImport {
   }
 
   [[nodiscard]] bool check_team(const std::string& file, const OpenRow& row) {
-    const auto team = row.integer("team").value_or(0);
+    const auto team = row.integer(columns::kTeam).value_or(0);
     if (team >= 1 && static_cast<std::size_t>(team) <= addresses_.size()) return true;
     complain(file, row.line(), "E0708", "there is no team " + std::to_string(team) + " in inputs/study.toml");
     return false;
@@ -179,17 +180,17 @@ class RunImport {
   void read_learners() {
     const std::string file = "learners.csv";
     read_table(file,
-               {needed("team", ColumnType::kInteger), needed("member", ColumnType::kInteger),
-                needed("type", ColumnType::kText)},
+               {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kMember, ColumnType::kInteger),
+                needed(columns::kType, ColumnType::kText)},
                {}, logs_.notes, [&](const OpenRow& row) {
                  if (!check_team(file, row)) return;
-                 const auto type = *row.text("type");
-                 const auto variant = addresses_[static_cast<std::size_t>(*row.integer("team")) - 1].variant;
+                 const auto type = *row.text(columns::kType);
+                 const auto variant = addresses_[static_cast<std::size_t>(*row.integer(columns::kTeam)) - 1].variant;
                  if (type.size() != 1 || !models_of_[variant].contains(type[0])) {
                    complain(file, row.line(), "E0708", "there is no learner type '" + type + "' in inputs/study.toml");
                    return;
                  }
-                 types_[{*row.integer("team"), *row.integer("member")}] = type;
+                 types_[{*row.integer(columns::kTeam), *row.integer(columns::kMember)}] = type;
                });
   }
 
@@ -203,34 +204,35 @@ class RunImport {
 
   void read_demonstrations() {
     const std::string file = "demonstrations.csv";
-    read_table(
-        file,
-        {needed("team", ColumnType::kInteger), needed("period", ColumnType::kInteger),
-         needed("kc", ColumnType::kInteger), needed("mdp", ColumnType::kInteger), needed("start", ColumnType::kInteger),
-         needed("constraint", ColumnType::kText)},
-        {{.name = "member", .type = ColumnType::kInteger}}, logs_.notes, [&](const OpenRow& row) {
-          if (!check_team(file, row)) return;
-          auto& shown = shown_[{*row.integer("team"), row.integer("member").value_or(0)}][*row.integer("period")];
-          shown.component = *row.integer("kc");
-          const auto conveyed = half_spaces(file, row, "constraint");
-          shown.half_spaces.insert(shown.half_spaces.end(), conveyed.begin(), conveyed.end());
-          if (const auto demo = start_of(file, row)) shown.demonstrations.push_back(*demo);
-        });
+    read_table(file,
+               {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kPeriod, ColumnType::kInteger),
+                needed(columns::kComponent, ColumnType::kInteger), needed(columns::kMdp, ColumnType::kInteger),
+                needed(columns::kStart, ColumnType::kInteger), needed(columns::kConstraint, ColumnType::kText)},
+               {{.name = columns::kMember, .type = ColumnType::kInteger}}, logs_.notes, [&](const OpenRow& row) {
+                 if (!check_team(file, row)) return;
+                 auto& shown = shown_[{*row.integer(columns::kTeam), row.integer(columns::kMember).value_or(0)}]
+                                     [*row.integer(columns::kPeriod)];
+                 shown.component = *row.integer(columns::kComponent);
+                 const auto conveyed = half_spaces(file, row, columns::kConstraint);
+                 shown.half_spaces.insert(shown.half_spaces.end(), conveyed.begin(), conveyed.end());
+                 if (const auto demo = start_of(file, row)) shown.demonstrations.push_back(*demo);
+               });
   }
 
   void read_responses() {
     const std::string file = "responses.csv";
     read_table(
         file,
-        {needed("team", ColumnType::kInteger), needed("period", ColumnType::kInteger),
-         needed("kc", ColumnType::kInteger), needed("test", ColumnType::kInteger),
-         needed("member", ColumnType::kInteger), needed("mdp", ColumnType::kInteger),
-         needed("start", ColumnType::kInteger), needed("correct", ColumnType::kBoolean),
-         needed("covered", ColumnType::kText)},
-        {{.name = "answer", .type = ColumnType::kText}}, logs_.notes, [&](const OpenRow& row) {
+        {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kPeriod, ColumnType::kInteger),
+         needed(columns::kComponent, ColumnType::kInteger), needed(columns::kTest, ColumnType::kInteger),
+         needed(columns::kMember, ColumnType::kInteger), needed(columns::kMdp, ColumnType::kInteger),
+         needed(columns::kStart, ColumnType::kInteger), needed(columns::kCorrect, ColumnType::kBoolean),
+         needed(columns::kCovered, ColumnType::kText)},
+        {{.name = columns::kAnswer, .type = ColumnType::kText}}, logs_.notes, [&](const OpenRow& row) {
           if (!check_team(file, row)) return;
           if (const auto answered = response_of(file, row)) {
-            answers_[{*row.integer("team"), *row.integer("member")}][*row.integer("period")].push_back(*answered);
+            answers_[{*row.integer(columns::kTeam), *row.integer(columns::kMember)}][*row.integer(columns::kPeriod)]
+                .push_back(*answered);
           }
         });
   }
@@ -238,8 +240,8 @@ class RunImport {
   // Where a demonstration or a test of a row starts, or nothing after complaining.
   std::optional<StartIndex> start_of(const std::string& file, const OpenRow& row) {
     const auto& domain = atlas_->domain();
-    const auto mdp = *row.integer("mdp");
-    const auto start = *row.integer("start");
+    const auto mdp = *row.integer(columns::kMdp);
+    const auto start = *row.integer(columns::kStart);
     if (mdp < 0 || static_cast<std::size_t>(mdp) >= domain.num_mdps() || start < 0 ||
         static_cast<std::size_t>(start) >= domain.mdp(MdpIndex{static_cast<std::size_t>(mdp)}).num_states()) {
       complain(
@@ -253,13 +255,13 @@ class RunImport {
   std::optional<Answered> response_of(const std::string& file, const OpenRow& row) {
     const auto demo = start_of(file, row);
     if (!demo) return std::nullopt;
-    Answered answered{.test = *row.integer("test"),
-                      .component = *row.integer("kc"),
+    Answered answered{.test = *row.integer(columns::kTest),
+                      .component = *row.integer(columns::kComponent),
                       .demo = *demo,
-                      .correct = *row.boolean("correct"),
-                      .covered = half_spaces(file, row, "covered"),
+                      .correct = *row.boolean(columns::kCorrect),
+                      .covered = half_spaces(file, row, columns::kCovered),
                       .line = row.line()};
-    if (const auto text = row.text("answer"); text && !text->empty()) {
+    if (const auto text = row.text(columns::kAnswer); text && !text->empty()) {
       answered.answer = detail::parse_vector(*text);
       if (!answered.answer) {
         complain(file, row.line(), "E0707", "'answer' does not hold three feature counts such as 0 1 5");

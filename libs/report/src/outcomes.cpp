@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "kith/table/column_names.hpp"
 #include "kith/teaching/strategy.hpp"
 
 namespace kith::detail {
@@ -33,7 +34,7 @@ bool compares_with_alone(const FirstScreen& screen) {
 
 Outcome known(const FirstScreen& screen) {
   if (screen.data.leads_with_exam) {
-    return {"exam_share_right", "share right in the exam", &TeamValues::exam_share_right, 2};
+    return {columns::kExamShareRight, "share right in the exam", &TeamValues::exam_share_right, 2};
   }
   return {"knowledge", screen.simulated ? "knowledge at the end" : "estimated knowledge at the end",
           &TeamValues::knowledge, 2};
@@ -45,7 +46,7 @@ std::vector<Outcome> outcomes_of(const FirstScreen& screen) {
   if (compares_with_alone(screen)) outcomes.push_back(kPersonPeriods);
   outcomes.push_back(known(screen));
   if (screen.data.has_exam && !screen.data.leads_with_exam) {
-    outcomes.push_back({"exam_share_right", "share right in the exam", &TeamValues::exam_share_right, 2});
+    outcomes.push_back({columns::kExamShareRight, "share right in the exam", &TeamValues::exam_share_right, 2});
   }
   return outcomes;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "first_screen.hpp"
+#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 
@@ -17,7 +18,7 @@ struct Outcome {
   int digits;
 };
 
-inline const Outcome kPeriods{"periods", "periods", &TeamValues::periods, 1};
+inline const Outcome kPeriods{columns::kPeriods, "periods", &TeamValues::periods, 1};
 inline const Outcome kPersonPeriods{"person-periods", "person-periods", &TeamValues::person_periods, 1};
 
 // What says how much a team knows.

@@ -7,6 +7,7 @@
 #include "first_screen.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/stats/effect_size.hpp"
+#include "kith/table/column_names.hpp"
 #include "session_tables.hpp"
 #include "team_tables.hpp"
 
@@ -89,10 +90,10 @@ class PeopleTables {
  public:
   PeopleTables(const SessionTables& tables, const ReportDesign& design) : tables_{tables}, design_{design} {
     const auto& people = tables.participants;
-    const auto member = people.numbers("member"), simulated = people.numbers("simulated");
+    const auto member = people.numbers(columns::kMember), simulated = people.numbers(columns::kSimulated);
     for (std::size_t i = 0; i < people.num_rows(); ++i) {
       if (!member[i] || simulated[i].value_or(0.0) == 0.0) continue;
-      simulated_.insert({people.cells("session")[i].value_or(""), static_cast<std::size_t>(*member[i])});
+      simulated_.insert({people.cells(columns::kSession)[i].value_or(""), static_cast<std::size_t>(*member[i])});
     }
   }
 
@@ -101,11 +102,12 @@ class PeopleTables {
   // The teacher's estimate of what each member knows.
   [[nodiscard]] Json knowledge() const {
     const auto& rows = tables_.beliefs;
-    const auto member = rows.numbers("member"), period = rows.numbers("period"), mass = rows.numbers("p_bec");
+    const auto member = rows.numbers(columns::kMember), period = rows.numbers(columns::kPeriod),
+               mass = rows.numbers(columns::kBelief);
     std::map<Key, std::vector<double>> values;
     for (std::size_t i = 0; i < rows.num_rows(); ++i) {
       if (!member[i] || !mass[i]) continue;
-      const auto key = key_of(rows.cells("session")[i].value_or(""), *member[i], period[i].value_or(0.0));
+      const auto key = key_of(rows.cells(columns::kSession)[i].value_or(""), *member[i], period[i].value_or(0.0));
       if (key) values[*key].push_back(*mass[i]);
     }
     JsonTable table{{"strategy", "type", "period", "mean", "low", "high", "people"}};
@@ -125,14 +127,15 @@ class PeopleTables {
       std::size_t answers = 0, right = 0;
     };
     const auto& rows = tables_.tests;
-    const auto member = rows.numbers("member"), period = rows.numbers("period"), correct = rows.numbers("correct");
+    const auto member = rows.numbers(columns::kMember), period = rows.numbers(columns::kPeriod),
+               correct = rows.numbers(columns::kCorrect);
     std::map<Key, Count> counts;
     for (std::size_t i = 0; i < rows.num_rows(); ++i) {
-      const auto session = rows.cells("session")[i].value_or("");
+      const auto session = rows.cells(columns::kSession)[i].value_or("");
       const auto key = correct[i] && member[i] ? key_of(session, *member[i], period[i].value_or(0.0)) : std::nullopt;
       if (!key) continue;
       auto& count = counts[*key];
-      count.people.insert(session + "/" + rows.cells("seat")[i].value_or(""));
+      count.people.insert(session + "/" + rows.cells(columns::kSeat)[i].value_or(""));
       ++count.answers;
       count.right += *correct[i] != 0.0 ? 1u : 0u;
     }
@@ -175,11 +178,12 @@ class PeopleTables {
 
 // How many periods each component took.
 Json component_periods(const SessionTables& tables, const ReportDesign& design) {
-  const auto component = tables.periods.numbers("component"), active = tables.periods.numbers("n_active");
+  const auto component = tables.periods.numbers(columns::kTaughtComponent),
+             active = tables.periods.numbers(columns::kActive);
   std::map<std::pair<std::size_t, std::size_t>, double> periods;  // by group and component
   std::size_t num_components = 0;
   for (std::size_t i = 0; i < tables.periods.num_rows(); ++i) {
-    const auto group = tables.group_of(tables.periods.cells("session")[i].value_or(""));
+    const auto group = tables.group_of(tables.periods.cells(columns::kSession)[i].value_or(""));
     if (!group || !component[i] || !active[i]) continue;  // not finished
     const auto number = static_cast<std::size_t>(*component[i]);
     num_components = std::max(num_components, number);
@@ -266,7 +270,8 @@ struct AnswerCounts {
 // Of people, in finished periods.
 AnswerCounts count_answers(const SessionTables& tables) {
   const auto& people = tables.participants;
-  const auto simulated = people.numbers("simulated"), tests = people.numbers("tests"), right = people.numbers("right");
+  const auto simulated = people.numbers(columns::kSimulated), tests = people.numbers(columns::kTests),
+             right = people.numbers(columns::kRight);
   AnswerCounts counts;
   for (std::size_t i = 0; i < people.num_rows(); ++i) {
     if (simulated[i].value_or(0.0) != 0.0) continue;

@@ -6,6 +6,7 @@
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
+#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 namespace {
@@ -67,21 +68,21 @@ std::size_t rank_in(const std::vector<std::string>& list, const std::string& val
 
 std::vector<LiveGroup> groups_of(const Dataset& sessions, const Json& about) {
   const auto text = [&](const char* column, std::size_t i) { return sessions.cells(column)[i].value_or(""); };
-  const auto started = sessions.numbers("started_ms"), replicate = sessions.numbers("replicate"),
-             people = sessions.numbers("people"), completed = sessions.numbers("completed"),
-             periods = sessions.numbers("periods"), knowledge = sessions.numbers("knowledge");
+  const auto started = sessions.numbers(columns::kStartedMs), replicate = sessions.numbers(columns::kReplicate),
+             people = sessions.numbers(columns::kPeople), completed = sessions.numbers(columns::kCompleted),
+             periods = sessions.numbers(columns::kPeriods), knowledge = sessions.numbers(columns::kKnowledge);
   std::vector<LiveGroup> groups;
   for (std::size_t i = 0; i < sessions.num_rows(); ++i) {
     if (!started[i]) continue;
-    groups.push_back({.session = text("session", i),
-                      .strategy = text("strategy", i),
-                      .composition = text("composition", i),
+    groups.push_back({.session = text(columns::kSession, i),
+                      .strategy = text(columns::kStrategy, i),
+                      .composition = text(columns::kComposition, i),
                       .replicate = static_cast<std::size_t>(replicate[i].value_or(0.0)),
                       .people = static_cast<std::size_t>(people[i].value_or(0.0)),
                       .completed = completed[i].value_or(0.0) != 0.0,
                       .periods = static_cast<std::size_t>(periods[i].value_or(0.0)),
                       .knowledge = knowledge[i],
-                      .ended = text("ended", i)});
+                      .ended = text(columns::kEnded, i)});
   }
   const auto strategies = texts_of(about, "strategies"), compositions = texts_of(about, "compositions");
   const auto key = [&](const LiveGroup& group) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "kith/table/column_names.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {
@@ -31,7 +32,7 @@ std::vector<std::pair<std::string, double>> read_weights(TomlReader& table) {
 }
 
 std::vector<std::string> levels_of(const std::string& factor, const StudySpec& spec) {
-  if (factor == "composition") return spec.compositions;
+  if (factor == columns::kComposition) return spec.compositions;
   std::vector<std::string> levels;
   for (const auto& strategy : spec.strategies) levels.push_back(strategy.name);
   return levels;

@@ -2,14 +2,16 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/study/study_spec.hpp"
+#include "kith/table/column_names.hpp"
 #include "kith/toml/reader.hpp"
 
 namespace kith {
 
 /// The words that study files use.
-inline const std::vector<std::string> kContrastFactorWords{"strategy", "composition"};
-inline const std::vector<std::string> kContrastResponseWords{"periods", "knowledge", "exam_share_right", "exam_regret",
-                                                             "exam_worst_share_right"};
+inline const std::vector<std::string> kContrastFactorWords{columns::kStrategy, columns::kComposition};
+inline const std::vector<std::string> kContrastResponseWords{columns::kPeriods, columns::kKnowledge,
+                                                             columns::kExamShareRight, columns::kExamRegret,
+                                                             columns::kExamWorstShareRight};
 inline constexpr const char* kStudySchema = "kith.study/1";
 
 /// Reads every key of a study document into a specification; what is wrong goes

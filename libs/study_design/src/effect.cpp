@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "kith/table/column_names.hpp"
+
 namespace kith {
 namespace {
 
@@ -59,14 +61,14 @@ std::optional<std::string> untestable(const Effect& effect, const StudySpec& spe
 // What stands before the size.
 std::optional<std::string> read_term(const std::vector<std::string>& words, const StudySpec& spec, Effect& effect) {
   const auto n = words.size();
-  if (n == 1 && words[0] == "strategy") {
+  if (n == 1 && words[0] == columns::kStrategy) {
     effect.kind = Effect::Kind::kStrategy;
-  } else if (n == 1 && words[0] == "composition") {
+  } else if (n == 1 && words[0] == columns::kComposition) {
     effect.kind = Effect::Kind::kComposition;
-  } else if ((n == 3 && words[0] == "strategy" && is_product(words[1]) && words[2] == "composition") ||
+  } else if ((n == 3 && words[0] == columns::kStrategy && is_product(words[1]) && words[2] == columns::kComposition) ||
              (n == 1 && (words[0] == "strategy:composition" || words[0] == "strategy*composition"))) {
     effect.kind = Effect::Kind::kInteraction;
-  } else if (n == 3 && words[0] == "strategy" && words[1] == "in") {
+  } else if (n == 3 && words[0] == columns::kStrategy && words[1] == "in") {
     effect.kind = Effect::Kind::kStrategyWithin;
     effect.composition = words[2];
     const auto& all = spec.compositions;
@@ -92,10 +94,10 @@ std::string to_string(const Effect& effect) {
   std::string text = std::string{name_of(effect.quantity)} + ": ";
   switch (effect.kind) {
     case Effect::Kind::kStrategy:
-      text += "strategy";
+      text += columns::kStrategy;
       break;
     case Effect::Kind::kComposition:
-      text += "composition";
+      text += columns::kComposition;
       break;
     case Effect::Kind::kInteraction:
       text += "strategy x composition";

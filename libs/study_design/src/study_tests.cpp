@@ -11,6 +11,7 @@
 #include "kith/stats/moments.hpp"
 #include "kith/stats/power.hpp"
 #include "kith/stats/tests.hpp"
+#include "kith/table/column_names.hpp"
 #include "kith/table/outcome.hpp"
 
 namespace kith {
@@ -209,10 +210,10 @@ EffectCells effect_cells(const TeamPool& pool, const Effect& effect) {
 
 StudyTests::StudyTests(const TeamPool& pool, std::size_t teams, bool paired)
     : pool_{pool}, teams_{teams}, paired_{paired}, groups_{group_positions(pool)} {
-  Factor strategy{"strategy", {}, {}}, composition{"composition", {}, {}};
+  Factor strategy{columns::kStrategy, {}, {}}, composition{columns::kComposition, {}, {}};
   for (const auto s : groups_) strategy.levels.emplace_back(pool.strategies()[s]);
   composition.levels = pool.compositions();
-  within_ = {"strategy", strategy.levels, {}};
+  within_ = {columns::kStrategy, strategy.levels, {}};
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     within_.codes.insert(within_.codes.end(), teams, i);
     for (std::size_t c = 0; c < pool.compositions().size(); ++c) {

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 
+#include "kith/table/column_names.hpp"
+
 namespace kith {
 namespace {
 
-constexpr std::array kOutcomes{OutcomeColumn{"periods"},
-                               OutcomeColumn{"knowledge", 0.0, 1.0},
-                               OutcomeColumn{"completed", 0.0, 1.0},
-                               OutcomeColumn{"area_sr"},
-                               OutcomeColumn{"exam_share_right", 0.0, 1.0},
-                               OutcomeColumn{"exam_regret"},
-                               OutcomeColumn{"exam_worst_share_right", 0.0, 1.0}};
+constexpr std::array kOutcomes{OutcomeColumn{columns::kPeriods},
+                               OutcomeColumn{columns::kKnowledge, 0.0, 1.0},
+                               OutcomeColumn{columns::kCompleted, 0.0, 1.0},
+                               OutcomeColumn{columns::kAreaSr},
+                               OutcomeColumn{columns::kExamShareRight, 0.0, 1.0},
+                               OutcomeColumn{columns::kExamRegret},
+                               OutcomeColumn{columns::kExamWorstShareRight, 0.0, 1.0}};
 
 }  // namespace
 
