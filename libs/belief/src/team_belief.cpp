@@ -111,6 +111,20 @@ std::vector<std::size_t> TeamBelief::observe_responses(std::span<const std::vect
   return all_or_nothing([&](TeamBelief& team) { return team.apply_responses(responses, period); });
 }
 
+void TeamBelief::observe_discussion(std::span<const std::vector<HalfSpace>> revised, std::uint64_t period) {
+  if (revised.size() != num_members()) {
+    throw std::invalid_argument("TeamBelief::observe_discussion: there must be one list per member");
+  }
+  if (members_.empty()) return;
+  all_or_nothing([&](TeamBelief& team) {
+    for (std::size_t i = 0; i < team.num_members(); ++i) {
+      if (!team.present_[i] || revised[i].empty()) continue;
+      auto& part = team.members_[i];
+      part.belief.observe(revised[i], options_.likelihood, part.random.split(period).split("discussion"));
+    }
+  });
+}
+
 std::vector<std::size_t> TeamBelief::apply_responses(std::span<const std::vector<HalfSpace>> responses,
                                                      std::uint64_t period) {
   const auto stream_of = [&](const Part& part) { return part.random.split(period).split("response"); };

@@ -4,15 +4,17 @@ namespace kith {
 
 std::vector<ObservedPeriod> observed_periods(const PastPeriods& history, std::size_t member) {
   std::vector<ObservedPeriod> periods;
-  for (const auto& [lesson, answers, feedback] : history) {
+  for (const auto& past : history) {
+    const auto& lesson = past.lesson;
+    const auto& feedback = past.feedback;
     if (feedback.verdicts.at(member).empty()) continue;
     periods.push_back({.period = lesson.period,
                        .component = lesson.component,
                        .demonstrations = lesson.demonstrations,
                        .tests = lesson.tests,
-                       .answers = answers[member],
+                       .answers = past.answers[member],
                        .verdicts = feedback.verdicts[member],
-                       .all_correct = feedback.all_correct[member],
+                       .all_correct = feedback.all_right_in_the_end(member),
                        .feedback = feedback.half_spaces});
   }
   return periods;

@@ -15,6 +15,7 @@
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/test_selection.hpp"
 #include "session_checks.hpp"
+#include "shown_by_answers.hpp"
 #include "whole_components.hpp"
 
 namespace kith {
@@ -65,13 +66,6 @@ void update_both(TeamBelief& belief, std::optional<TeamBelief>& judged, const st
   judged = std::move(trial);
 }
 
-// Adds what is not there yet: a constraint that several test sets examine is shown once.
-void add_new(std::vector<HalfSpace>& shown, std::span<const HalfSpace> more) {
-  for (const auto& half_space : more) {
-    if (std::find(shown.begin(), shown.end(), half_space) == shown.end()) shown.push_back(half_space);
-  }
-}
-
 bool nobody(const std::vector<bool>& present) {
   return std::find(present.begin(), present.end(), true) == present.end();
 }
@@ -97,6 +91,11 @@ std::string_view name_of(SessionPhase phase) {
 std::string_view name_of(SessionStatus status) noexcept {
   constexpr std::array<std::string_view, 4> kNames{"running", "complete", "skipped", "max_periods"};
   return kNames.at(static_cast<std::size_t>(status));
+}
+
+bool Feedback::all_right_in_the_end(std::size_t member) const {
+  if (member >= revised.size() || revised[member].empty()) return all_correct.at(member);
+  return std::all_of(revised[member].begin(), revised[member].end(), [](const Verdict& one) { return one.correct; });
 }
 
 Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice strategy,
@@ -363,6 +362,12 @@ Session::Given Session::judged(std::size_t member, std::vector<Answer> answers) 
   const auto who = "member " + std::to_string(member + 1);
   if (!takes_part(member)) refuse(who + " is away");
   if (has_answered(member)) refuse(who + " has already answered");
+  if (has_discussed()) refuse(who + " is too late: the answers have been discussed");
+  return judged_answers(member, std::move(answers));
+}
+
+Session::Given Session::judged_answers(std::size_t member, std::vector<Answer> answers) const {
+  const auto who = "member " + std::to_string(member + 1);
   if (answers.size() != lesson_.tests.size()) {
     refuse(who + " gave " + std::to_string(answers.size()) + " answers to " + std::to_string(lesson_.tests.size()) +
            " tests");
@@ -381,13 +386,33 @@ void Session::answer(std::size_t member, std::vector<Answer> answers) {
   pending_[member] = std::move(given);
 }
 
+void Session::discuss(std::vector<std::vector<Answer>> revised) {
+  require_phase(SessionPhase::kTests, "discussing answers");
+  if (has_discussed()) throw Error{ErrorKind::kUsage, "the answers have been discussed already"};
+  if (std::count_if(pending_.begin(), pending_.end(), [](const auto& one) { return one.has_value(); }) < 2) {
+    throw Error{ErrorKind::kUsage, "there is nothing to discuss: fewer than two members have answered"};
+  }
+  if (revised.size() != num_members()) {
+    refuse("there are revised answers of " + std::to_string(revised.size()) + " members instead of " +
+           std::to_string(num_members()));
+  }
+  std::vector<Given> judged(num_members());
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (revised[i].empty()) continue;
+    if (!has_answered(i)) refuse("member " + std::to_string(i + 1) + " revises answers without having given any");
+    judged[i] = judged_answers(i, revised[i]);
+  }
+  events_.push_back(events_.prepare(AnswersDiscussed{std::move(revised)}));
+  revised_ = std::move(judged);
+}
+
 const Feedback& Session::close_tests() {
   require_phase(SessionPhase::kTests, "closing the tests");
   Feedback feedback;
   Verdict unanswered;
   unanswered.answered = false;
   std::vector<bool> counts;  // who takes part or had answered before leaving
-  std::vector<std::vector<HalfSpace>> shown(num_members());
+  std::vector<std::vector<HalfSpace>> shown(num_members()), revised(num_members());
   for (std::size_t i = 0; i < num_members(); ++i) {
     counts.push_back(takes_part(i) || has_answered(i));
     auto& verdicts = feedback.verdicts.emplace_back();
@@ -399,10 +424,16 @@ const Feedback& Session::close_tests() {
     feedback.all_correct.push_back(all);
   }
   if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
+  for (std::size_t i = 0; i < revised_.size(); ++i) {
+    feedback.revised.push_back(revised_[i].verdicts);
+    revised[i] = shown_by_revision(feedback.verdicts[i], revised_[i].verdicts);
+  }
   for (const auto& test : lesson_.tests) add_new(feedback.half_spaces, test.covered);
   auto closed = events_.prepare(TestsClosed{});
-  update_both(belief_, judged_, counts,
-              [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
+  update_both(belief_, judged_, counts, [&](TeamBelief& belief) {
+    feedback.excluded = belief.observe_responses(shown, lesson_.period);
+    if (has_discussed()) belief.observe_discussion(revised, lesson_.period);
+  });
   inform_bank(feedback, counts);
   auto rows = right_in_a_row_;
   for (std::size_t i = 0; i < num_members(); ++i) rows[i] = feedback.all_correct[i] ? rows[i] + 1 : 0;
@@ -435,6 +466,8 @@ const Feedback& Session::give_feedback() {
               [&](TeamBelief& belief) { belief.observe_feedback(feedback_.half_spaces, lesson_.period); });
   events_.push_back(std::move(given));
   *past = {std::move(lesson_), std::move(answers), std::move(feedback_)};
+  for (auto& one : revised_) past->revised.push_back(std::move(one.answers));
+  revised_.clear();
   history_.push_back(past);
   lesson_ = {};
   feedback_ = {};

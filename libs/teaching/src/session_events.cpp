@@ -8,9 +8,9 @@
 namespace kith {
 
 std::string_view name_of(const SessionEvent& event) noexcept {
-  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",     "tests-answered",
-                                         "tests-closed",    "feedback-given",   "member-left",
-                                         "member-returned", "strategy-changed", "member-replaced"};
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",     "tests-answered",  "tests-closed",
+                                         "feedback-given",  "member-left",      "member-returned", "strategy-changed",
+                                         "member-replaced", "answers-discussed"};
   static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
   return kNames[event.index()];
 }
@@ -72,6 +72,7 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
     void operator()(const MemberReturned& e) const { session.come_back(e.member); }
     void operator()(const MemberReplaced& e) const { session.replace(e.member); }
     void operator()(const StrategyChanged& e) const { session.change_strategy(e.strategy); }
+    void operator()(const AnswersDiscussed& e) const { session.discuss(e.revised); }
   };
   std::visit(Visitor{*this, cache}, event);
 }
@@ -81,8 +82,8 @@ bool operator==(const Session& a, const Session& b) {
          a.right_in_a_row_ == b.right_in_a_row_ && a.components_ == b.components_ && a.attendance_ == b.attendance_ &&
          a.is_new_ == b.is_new_ && a.visited_ == b.visited_ && a.taught_before_ == b.taught_before_ &&
          a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ && a.pending_ == b.pending_ &&
-         a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_ &&
-         a.judged_ == b.judged_ && a.bank_ == b.bank_;
+         a.revised_ == b.revised_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
+         a.belief_ == b.belief_ && a.judged_ == b.judged_ && a.bank_ == b.bank_;
 }
 
 }  // namespace kith

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kith/teaching/random_test.hpp"
+#include "shown_by_answers.hpp"
 
 namespace kith {
 
@@ -32,13 +33,7 @@ void TeamBank::inform(std::size_t i, std::span<const HalfSpace> half_spaces, con
 
 // The answers of a member as evidence of what the member believes.
 void TeamBank::take_answers(std::size_t i, std::span<const Verdict> verdicts, std::size_t period) {
-  std::vector<HalfSpace> shown;
-  for (const auto& verdict : verdicts) {
-    for (const auto& half_space : verdict.half_spaces) {
-      if (std::find(shown.begin(), shown.end(), half_space) == shown.end()) shown.push_back(half_space);
-    }
-  }
-  inform(i, shown, random_[i].split(period).split("response"));
+  inform(i, shown_by(verdicts), random_[i].split(period).split("response"));
   informed_[i].diffuse(response_noise_, random_[i].split(period).split("response noise"));
 }
 
@@ -63,8 +58,12 @@ void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<c
       members_[i].see_answers(AnswerFit{atlas, lesson.tests, answers[i], feedback.verdicts[i]});
       take_answers(i, feedback.verdicts[i], lesson.period);
     }
+    if (!feedback.revised.empty()) {
+      const auto revised = shown_by_revision(feedback.verdicts[i], feedback.revised[i]);
+      if (!revised.empty()) inform(i, revised, random_[i].split(lesson.period).split("discussion"));
+    }
     if (!present[i]) continue;
-    members_[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+    members_[i].hear_feedback(feedback.all_right_in_the_end(i), feedback.half_spaces, lesson.period);
     inform(i, feedback.half_spaces, random_[i].split(lesson.period).split("feedback"));
   }
 }

@@ -71,6 +71,12 @@ class TeamBelief {
   /// @throws std::invalid_argument unless there is one list per member.
   std::vector<std::size_t> observe_responses(std::span<const std::vector<HalfSpace>> responses, std::uint64_t period);
 
+  /// What members answered after they had seen each other's answers, as far as their own first answers did not show it:
+  /// one list per member; lists of absent members are ignored. Only the beliefs about these members are updated: the
+  /// rules of aggregation have the first answers of everybody, of which these are made.
+  /// @throws std::invalid_argument unless there is one list per member.
+  void observe_discussion(std::span<const std::vector<HalfSpace>> revised, std::uint64_t period);
+
   /// Feedback: the true half-spaces, once, to the beliefs about everybody present and those of the rules.
   void observe_feedback(std::span<const HalfSpace> half_spaces, std::uint64_t period);
 

@@ -93,6 +93,15 @@ struct Feedback {
   std::vector<std::size_t> excluded;   ///< Members whom a rule of aggregation left out, such as the common belief's.
   bool component_learned = false;
   std::vector<std::size_t> released{};  ///< Members who are done with the component before the others; ascending.
+  /// After a discussion, as `verdicts`; empty for members who kept all answers. Empty without a discussion.
+  std::vector<std::vector<Verdict>> revised{};
+
+  /// What the member answered in the end; as `verdicts` without a discussion.
+  [[nodiscard]] const std::vector<Verdict>& final_verdicts(std::size_t member) const {
+    return member < revised.size() && !revised[member].empty() ? revised[member] : verdicts.at(member);
+  }
+  /// Whether all answers of the member were right in the end: what the member hears.
+  [[nodiscard]] bool all_right_in_the_end(std::size_t member) const;
   friend bool operator==(const Feedback&, const Feedback&) = default;
 };
 

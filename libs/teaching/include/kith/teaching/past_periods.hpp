@@ -12,6 +12,7 @@ struct PastPeriod {
   Lesson lesson;
   std::vector<std::vector<Answer>> answers;  ///< Per member, per test; empty for a member who was away.
   Feedback feedback;
+  std::vector<std::vector<Answer>> revised{};  ///< After a discussion, as Feedback::revised.
   friend bool operator==(const PastPeriod&, const PastPeriod&) = default;
 };
 

@@ -33,7 +33,7 @@ enum class SessionStatus : std::uint8_t {
 enum class SessionPhase {
   kProposal,  ///< propose()
   kLesson,    ///< show()
-  kTests,     ///< answer(), close_tests()
+  kTests,     ///< answer(), discuss(), close_tests()
   kFeedback,  ///< give_feedback()
   kFinished,  ///< nothing
 };
@@ -47,6 +47,7 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 ///   while (session.propose(cache)) {                        // chooses the lesson; false: nothing is left to teach
 ///     session.show();                                       // lesson().demonstrations were watched
 ///     for each member: session.answer(member, answers);     // to lesson().tests
+///     session.discuss(revised);                             // only in groups that talk about their answers
 ///     session.close_tests();
 ///     session.give_feedback();
 ///   }
@@ -68,6 +69,11 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 /// robot's. A right one with the feature counts of the robot's path: the taught constraints that the test covers. A
 /// right one with other feature counts (the robot is indifferent between the two) may be taken for any reason, so it
 /// tells nothing.
+///
+/// Groups that talk. Once everybody has answered, discuss() tells what members answer after they saw the answers of
+/// the others. What ends a component, the rules of aggregation, the bank of hypotheses and PastPeriod::answers go by
+/// the first answers, which members gave on their own. What a revised answer shows beyond the member's own first
+/// answers is evidence about this member only: whoever was copied is not believed the more for it.
 ///
 /// A member who leaves during a period has no more part in it, except that answers already given count; who returns
 /// takes part from the next lesson on, and so does whoever takes the place of a member who left: then the teacher's
@@ -107,6 +113,13 @@ class Session {
   /// @throws kith::Error (kInvalidInput) unless there is one answer per test, the member takes part and has not
   /// answered yet, and no answer earns more than the robot's optimal behaviour, which no path can.
   void answer(std::size_t member, std::vector<Answer> answers);
+  /// What members answer after they have seen each other's answers; no first answers are taken any more.
+  /// @param revised  per member: one answer per test, or none at all for who keeps all answers.
+  /// @throws kith::Error (kInvalidInput) unless whoever revises answers has given some, and as answer(); (kUsage)
+  /// unless at least two members have answered and nothing was discussed yet.
+  void discuss(std::vector<std::vector<Answer>> revised);
+  /// Whether the answers to the current tests have been discussed.
+  [[nodiscard]] bool has_discussed() const noexcept { return !revised_.empty(); }
   /// @return what give_feedback() will tell.
   const Feedback& close_tests();
   const Feedback& give_feedback();
@@ -137,6 +150,10 @@ class Session {
   [[nodiscard]] bool takes_part(std::size_t member) const { return attendance_.at(member) == Attendance::kPresent; }
   /// Whether a member has answered the current tests.
   [[nodiscard]] bool has_answered(std::size_t member) const { return pending_.at(member).has_value(); }
+  /// The first answers of a member to the current tests. @pre has_answered(member)
+  [[nodiscard]] const std::vector<Answer>& answers(std::size_t member) const {
+    return pending_.at(member).value().answers;
+  }
   /// What the teacher believes about the team.
   [[nodiscard]] const TeamBelief& belief() const noexcept { return belief_; }
   /// Who the members may be, if the options, the strategy or the stopping rule ask for it; null otherwise.
@@ -162,6 +179,7 @@ class Session {
   void require_away(std::size_t member, std::string_view what) const;
   void require_seat(std::size_t member) const;
   [[nodiscard]] Given judged(std::size_t member, std::vector<Answer> answers) const;
+  [[nodiscard]] Given judged_answers(std::size_t member, std::vector<Answer> answers) const;
   [[nodiscard]] Verdict judge(const Test& test, const Answer& answer) const;
   [[nodiscard]] std::optional<Prepared> prepare(TeachingCache& cache, std::size_t component, const TeamBelief& belief,
                                                 std::span<const MemberTruth> truth) const;
@@ -204,6 +222,7 @@ class Session {
   std::vector<HalfSpace> taught_with_unit_;  // R_n with the current unit
   Lesson lesson_;
   std::vector<std::optional<Given>> pending_;  // answers to the current tests
+  std::vector<Given> revised_;                 // the same once discussed, per member; no answers: kept all
   Feedback feedback_;
   PastPeriods history_;
   SessionEvents events_;

@@ -56,14 +56,20 @@ struct MemberReplaced {
   friend bool operator==(const MemberReplaced&, const MemberReplaced&) = default;
 };
 
-/// Everything that can happen to a session, see Session.
+/// After all had answered, members saw each other's answers without names and could revise their own.
+struct AnswersDiscussed {
+  std::vector<std::vector<Answer>> revised;  ///< Per member, one answer per test; empty: kept all.
+  friend bool operator==(const AnswersDiscussed&, const AnswersDiscussed&) = default;
+};
+
+/// Everything that can happen to a session, see Session. The order stays: keys of lessons count in it.
 using SessionEvent = std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft,
-                                  MemberReturned, StrategyChanged, MemberReplaced>;
+                                  MemberReturned, StrategyChanged, MemberReplaced, AnswersDiscussed>;
 /// In the order in which they happened.
 using SessionEvents = SharedList<SessionEvent>;
 
 /// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
-/// "member-returned", "strategy-changed", "member-replaced".
+/// "member-returned", "strategy-changed", "member-replaced", "answers-discussed".
 [[nodiscard]] std::string_view name_of(const SessionEvent& event) noexcept;
 
 }  // namespace kith
