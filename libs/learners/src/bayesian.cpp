@@ -113,6 +113,10 @@ void BayesianLearner::hear_feedback(bool all_correct, std::span<const HalfSpace>
   learn(half_spaces, period, random_.split("feedback").split(period));
 }
 
+void BayesianLearner::be_convinced(std::span<const HalfSpace> half_spaces, std::size_t period) {
+  learn(half_spaces, period, random_.split("convinced").split(period));
+}
+
 double BayesianLearner::ability_after(bool all_correct, const BayesianPerson& person) const noexcept {
   return std::min(ability_ + (all_correct ? person.confirm_gain : person.correct_gain), person.ability_max);
 }

@@ -39,6 +39,10 @@ class LikeBayesian : public Learner {
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override {
     person_.hear_feedback(all_correct, half_spaces, period);
   }
+  void be_convinced(std::span<const HalfSpace> half_spaces, std::size_t period) override {
+    person_.be_convinced(half_spaces, period);
+  }
+  void believe(ParticleBelief belief) override { person_.believe(std::move(belief)); }
   [[nodiscard]] std::optional<double> likelihood(const AnswerEvidence& evidence) const override {
     return person_.likelihood(evidence);
   }

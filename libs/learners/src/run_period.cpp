@@ -74,13 +74,19 @@ PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& le
     period.abilities[i] = learners[i]->ability();
     session.answer(i, period.responses[i].answers);
   }
+  if (options.discussion.is_held() && can_discuss(session)) {
+    std::vector<Learner*> talking;
+    for (const auto& learner : learners) talking.push_back(learner.get());
+    session.discuss(discuss(options.discussion, session, cache, talking, options.talk));
+  }
   session.close_tests();
   std::vector<bool> hears;  // also who is released after this period
   for (std::size_t i = 0; i < learners.size(); ++i) hears.push_back(session.takes_part(i));
   const auto& feedback = session.give_feedback();
   for (std::size_t i = 0; i < learners.size(); ++i) {
     if (!hears[i]) continue;
-    learners[i]->hear_feedback(feedback.all_correct[i], feedback.half_spaces, session.history().back().lesson.period);
+    learners[i]->hear_feedback(feedback.all_right_in_the_end(i), feedback.half_spaces,
+                               session.history().back().lesson.period);
   }
   return period;
 }

@@ -49,6 +49,8 @@ class BayesianLearner final : public Learner {
   [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                 std::size_t period) const override;
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override;
+  /// As from a demonstration, with the present ability.
+  void be_convinced(std::span<const HalfSpace> half_spaces, std::size_t period) override;
   /// mass(weights that give exactly these answers) / mass(weights that give any); nothing if the latter is 0.
   [[nodiscard]] std::optional<double> likelihood(const AnswerEvidence& evidence) const override;
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const override {
@@ -69,7 +71,7 @@ class BayesianLearner final : public Learner {
   /// past of people who differ in what has not mattered yet.
   void become(const BayesianPerson& person) noexcept { person_ = person; }
   /// From now on this is what the person believes: for models of people whose beliefs change otherwise, too.
-  void believe(ParticleBelief belief) { belief_ = std::move(belief); }
+  void believe(ParticleBelief belief) override { belief_ = std::move(belief); }
 
  private:
   void learn(std::span<const HalfSpace> half_spaces, std::size_t period, RandomStream random);

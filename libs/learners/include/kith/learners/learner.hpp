@@ -23,7 +23,8 @@ struct LearningAbilities {
 /// the model (LearnerModel) that made them.
 ///
 /// Calls: begin_component() when a knowledge component begins, also the first one; then in every period, in this order,
-/// let_time_pass() (from the second period on), see(), watch(), answer() and hear_feedback(). Periods are numbered from
+/// let_time_pass() (from the second period on), see(), watch(), answer(), in groups that talk be_convinced() or
+/// believe() and answer() again, and hear_feedback(). Periods are numbered from
 /// 1 and do not begin again with a component.
 ///
 /// What every model promises, and the tests check for all registered ones (docs/library.md):
@@ -61,6 +62,12 @@ class Learner {
 
   /// Hears whether all answers were right, and sees the corrections, which convey these half-spaces.
   virtual void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) = 0;
+
+  /// Is convinced by another member, between the answers and the feedback of a period, that the robot's weights satisfy
+  /// these half-spaces. Does nothing to people of models that do not say otherwise.
+  virtual void be_convinced(std::span<const HalfSpace> /*half_spaces*/, std::size_t /*period*/) {}
+  /// Comes to believe something else by talking to the others. As be_convinced().
+  virtual void believe(ParticleBelief /*belief*/) {}
 
   /// The probability, in [0, 1], that answer() gives exactly these answers in the present state; nothing if the
   /// person has no answer to these tests. @pre evidence is not empty, and has paths if LearnerModel::needs_paths.

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "kith/learners/discussion.hpp"
 #include "kith/learners/learner.hpp"
 #include "kith/learners/pace.hpp"
 #include "kith/teaching/session.hpp"
@@ -15,7 +17,9 @@ struct PeriodOptions {
   /// If positive, learners work out for themselves what a demonstration conveys, from so many weights that they take
   /// the robot's to be, instead of learning what it conveys to the teacher's counterfactuals.
   std::size_t own_counterfactuals = 0;
-  Pace pace{};  ///< For people who forget with time.
+  Pace pace{};                           ///< For people who forget with time.
+  DiscussionChoice discussion{};         ///< How the group talks about its answers.
+  std::span<const RandomStream> talk{};  ///< One per seat: what each person draws then; empty if they do not talk.
 };
 
 /// Whether the session's lesson is the first one of its component: Learner::begin_component() is called before it.
