@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include "parameters_toml.hpp"
+
 namespace kith {
 namespace {
 
@@ -55,6 +57,7 @@ class GroupReader {
       take(options_.screens.explore, screens->boolean("explore", Presence::kOptional));
       screens->finish();
     }
+    if (auto discussion = group_.table("discussion", Presence::kOptional)) read_discussion(*discussion);
     read_questions();
     if (auto completion = group_.table("completion", Presence::kOptional)) read_completion(*completion);
     take(options_.ask_name, group_.boolean("ask_name", Presence::kOptional));
@@ -155,10 +158,22 @@ class GroupReader {
     take(limits.watch_s, time.integer("watch_s", Presence::kOptional, {0, kDay}));
     take(limits.predict_s, time.integer("predict_s", Presence::kOptional, {0, kDay}));
     take(limits.feedback_s, time.integer("feedback_s", Presence::kOptional, {0, kDay}));
+    take(limits.discuss_s, time.integer("discuss_s", Presence::kOptional, {0, kDay}));
     take(limits.lobby_s, time.integer("lobby_s", Presence::kOptional, {0, kDay}));
     take(limits.leave_after_s, time.integer("leave_after_s", Presence::kOptional, {0, kDay}));
     take(limits.max_minutes, time.integer("max_minutes", Presence::kOptional, {0, kDay / 60}));
     time.finish();
+  }
+
+  void read_discussion(TomlReader& discussion) {
+    std::vector<std::string> words;
+    for (const auto& model : discussion_models()) words.emplace_back(model.name);
+    const auto word = discussion.word("model", Presence::kRequired, words);
+    if (word) {
+      const auto& model = discussion_models()[static_cast<std::size_t>(*word)];
+      options_.discussion.choice = {&model, read_parameters(discussion, model.parameters)};
+      discussion.finish();
+    }
   }
 
   void read_questions() {

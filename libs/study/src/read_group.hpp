@@ -10,6 +10,7 @@ namespace kith {
 [[nodiscard]] GroupOptions read_group(TomlReader& group, TomlReport& report);
 
 /// The table with every key written out; reading it gives the same options again.
+[[nodiscard]] TomlTable discussion_table(const GroupDiscussion& discussion);
 [[nodiscard]] TomlTable group_table(const GroupOptions& group);
 
 }  // namespace kith

@@ -42,6 +42,9 @@ bool has_forecasts(const Study& study) {
 bool has_estimates(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.estimates; });
 }
+bool has_discussions(const Study& study) {
+  return any_variant(study, [](const StudySpec& spec) { return spec.group.discussion.choice.is_held(); });
+}
 bool has_belief_quality(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.beliefs; });
 }

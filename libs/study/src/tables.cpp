@@ -273,6 +273,11 @@ std::vector<StudyTable> tables_of(const Study& study) {
     tables.push_back(list_table(study, &R::exams, "exam.csv",
                                 "One row per exam of a member, over all starts and over those of every component."));
   }
+  if (has_discussions(study)) {
+    tables.push_back(list_table(study, &R::discussions, "discussions.csv",
+                                "One row per member and test of a period whose answers were discussed; none if only "
+                                "teams are recorded."));
+  }
   if (has_estimates(study)) {
     tables.push_back(list_table(study, &R::estimates, "estimates.csv",
                                 "What the teacher can tell from the answers, beside the truth: one row about each "

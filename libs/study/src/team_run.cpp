@@ -4,6 +4,7 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <tuple>
 
 #include "kith/learners/run_period.hpp"
 #include "kith/study/session_forecasts.hpp"
@@ -153,11 +154,16 @@ class TeamRun {
     for (std::size_t i = 0; i < learners.size(); ++i) {
       if (session.takes_part(i)) present.push_back(i);
     }
+    std::vector<RandomStream> talk;
+    for (const auto& row : rows) talk.push_back(people_[row.member - 1].stream);
     const auto period =
         run_period(session, cache_, learners,
                    {.own_counterfactuals = spec_.learner_counterfactuals_self ? spec_.teaching.counterfactuals : 0,
-                    .pace = spec_.pace});
-    const auto& [lesson, answers, feedback] = session.history().back();
+                    .pace = spec_.pace,
+                    .discussion = spec_.group.discussion.choice,
+                    .talk = talk});
+    const auto& past = session.history().back();
+    const auto& [lesson, answers, feedback] = std::tie(past.lesson, past.answers, past.feedback);
     for (const auto i : present) {
       ++rows[i].periods;
       rows[i].tests += lesson.tests.size();
@@ -169,6 +175,7 @@ class TeamRun {
       record_.period_records.back().mastery = mastery_after(cache_, spec_, session, learners, present);
       write_demonstrations(lesson, rows, present);
       write_responses(lesson, answers, feedback, rows, present);
+      write_discussion(past, rows, present);
       write_progress(lesson, learners, period.abilities, feedback, rows, present);
     }
     if (spec_.record == RecordLevel::kParticles) write_beliefs(session, lesson.period, learners, rows);
@@ -283,6 +290,23 @@ class TeamRun {
       record.constraints = verdicts[t].half_spaces;
       record.covered = tests[t].covered;
       record_.responses.push_back(record);
+    }
+  }
+
+  void write_discussion(const PastPeriod& past, const std::vector<LearnerRecord>& rows, const Present& present) {
+    if (past.revised.empty()) return;
+    for (const auto i : present) {
+      const auto& revised = past.revised[i].empty() ? past.answers[i] : past.revised[i];
+      for (std::size_t t = 0; t < past.lesson.tests.size(); ++t) {
+        record_.discussions.push_back({.period = past.lesson.period,
+                                       .component = past.lesson.component + 1,
+                                       .test = t + 1,
+                                       .member = rows[i].member,
+                                       .first = past.answers[i][t],
+                                       .first_correct = past.feedback.verdicts[i][t].correct,
+                                       .revised = revised[t],
+                                       .revised_correct = past.feedback.final_verdicts(i)[t].correct});
+      }
     }
   }
 

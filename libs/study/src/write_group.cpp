@@ -1,6 +1,7 @@
 #include <string>
 #include <vector>
 
+#include "parameters_toml.hpp"
 #include "read_group.hpp"
 
 namespace kith {
@@ -45,6 +46,14 @@ TomlArray questions_array(const std::vector<GroupQuestion>& questions) {
 
 }  // namespace
 
+TomlTable discussion_table(const GroupDiscussion& discussion) {
+  GroupTable table;
+  table.add("model", std::string{discussion.choice.model->name});
+  auto result = table.take();
+  write_parameters(discussion.choice.values, result);
+  return result;
+}
+
 TomlTable group_table(const GroupOptions& group) {
   GroupTable table, consent, dropout, time, screening, completion;
   table.add("title", group.title);
@@ -75,6 +84,7 @@ TomlTable group_table(const GroupOptions& group) {
   time.add("watch_s", group.time.watch_s);
   time.add("predict_s", group.time.predict_s);
   time.add("feedback_s", group.time.feedback_s);
+  if (group.time.discuss_s > 0) time.add("discuss_s", group.time.discuss_s);
   time.add("lobby_s", group.time.lobby_s);
   time.add("leave_after_s", group.time.leave_after_s);
   time.add("max_minutes", group.time.max_minutes);
@@ -86,6 +96,7 @@ TomlTable group_table(const GroupOptions& group) {
     screens.add("explore", group.screens.explore);
     table.add("screens", screens.take());
   }
+  if (group.discussion.choice.is_held()) table.add("discussion", discussion_table(group.discussion));
   screening.count("tests", group.screening.tests);
   screening.add("cut", group.screening.cut);
   screening.text("high", group.high_types);

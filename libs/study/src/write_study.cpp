@@ -174,7 +174,13 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   root.add("stop", stop(spec.teaching));
   root.add("pace", written(pace_keys(), spec));
   root.add("record", written(record_keys(), spec));
-  if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
+  if (group == GroupText::kWritten && spec.has_group) {
+    root.add("group", TomlValue{group_table(spec.group)});
+  } else if (spec.group.discussion.choice.is_held()) {  // this alone changes what is simulated
+    TableWriter talk;
+    talk.add("discussion", TomlValue{discussion_table(spec.group.discussion)});
+    root.add("group", std::move(talk));
+  }
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});
   return to_toml(std::move(root).take());
 }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/learners/discussion.hpp"
+
 namespace kith {
 
 /// What happens to a group when somebody is away.
@@ -42,6 +44,7 @@ struct GroupTime {
   std::int64_t watch_s = 0;          ///< For all demonstrations of a period.
   std::int64_t predict_s = 0;        ///< For all tests of a period.
   std::int64_t feedback_s = 0;       ///< For the feedback of a period.
+  std::int64_t discuss_s = 0;        ///< To keep or change answers, where groups talk.
   std::int64_t lobby_s = 1200;       ///< From the moment at which the first person is ready, until the group starts.
   std::int64_t leave_after_s = 300;  ///< After so long in the lobby a person may leave with a completion code.
   std::int64_t max_minutes = 0;      ///< Minutes of teaching.
@@ -62,6 +65,13 @@ struct GroupScreens {
   bool brackets = false;       ///< Feedback shows between which bounds each cost lies, by what was shown so far.
   bool explore = false;        ///< After feedback and at the end people may change the world and see the robot's path.
   friend bool operator==(const GroupScreens&, const GroupScreens&) = default;
+};
+
+/// `group.discussion`: whether members see each other's answers, without names, before the feedback, and may revise
+/// theirs. It is part of how a study is simulated.
+struct GroupDiscussion {
+  DiscussionChoice choice{};  ///< How simulated members talk; "none": nobody does, people neither.
+  friend bool operator==(const GroupDiscussion&, const GroupDiscussion&) = default;
 };
 
 /// One of `group.questions`, asked at the end.
@@ -89,7 +99,8 @@ struct GroupCompletion {
   friend bool operator==(const GroupCompletion&, const GroupCompletion&) = default;
 };
 
-/// `[group]` of a study file: how groups of people are taught live. It changes nothing in how a study is simulated.
+/// `[group]` of a study file: how groups of people are taught live. All but `discussion` changes nothing in how a study
+/// is simulated.
 struct GroupOptions {
   std::string title = "Learn how a robot works";  ///< What participants read; it says nothing about the reward.
   std::vector<std::string> story{};               ///< Paragraphs; empty: a standard text.
@@ -105,6 +116,7 @@ struct GroupOptions {
   GroupTime time{};
   GroupScreening screening{};
   GroupScreens screens{};
+  GroupDiscussion discussion{};
   /// `group.screening.high`, letters of learner types: their places are for people with high estimates, the others for
   /// people with low ones. Empty: the estimates are shown to the facilitator and decide nothing.
   std::string high_types{};

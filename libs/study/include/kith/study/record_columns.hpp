@@ -35,6 +35,7 @@ struct RecordColumn {
 [[nodiscard]] bool has_costs(const Study& study);
 [[nodiscard]] bool has_forecasts(const Study& study);
 [[nodiscard]] bool has_estimates(const Study& study);
+[[nodiscard]] bool has_discussions(const Study& study);
 [[nodiscard]] bool has_belief_quality(const Study& study);
 [[nodiscard]] bool has_subgroups(const Study& study);
 /// Whether the learner models of all types have an ability.
@@ -235,6 +236,21 @@ void declare(Fields& fields, Declared<ResponseRecord>) {
 }
 
 template <typename Fields>
+void declare(Fields& fields, Declared<DiscussionRecord>) {
+  using R = DiscussionRecord;
+  fields.column(&R::period, kOfPeriod);
+  fields.column(&R::component, kOfComponent);
+  fields.column(&R::test, {kTest, "Number of the test in the period, from 1."});
+  fields.column(&R::member, kOfMember);
+  fields.column(&R::first, {kAnswer, "Feature counts of the first answer, as in responses.csv; missing without one."});
+  fields.column(&R::first_correct, {kCorrect, "Whether the first answer is as good as the robot's path."});
+  fields.column(&R::revised, {"revised_answer", "The same of the answer after the discussion."});
+  fields.column(&R::revised_correct, {"revised_correct", "Whether that is as good as the robot's path."});
+  fields.derived([](const R& record) { return record.first != record.revised; },
+                 {"changed", "Whether the member gave another answer after the discussion."});
+}
+
+template <typename Fields>
 void declare(Fields& fields, Declared<ProgressRecord>) {
   using R = ProgressRecord;
   fields.column(&R::period, kOfPeriod);
@@ -323,6 +339,7 @@ void declare(Fields& fields, Declared<TeamRecord>) {
                         "The smallest effective number of particles of a member's belief that satisfied what "
                         "the member was just shown. Below 10 the belief is impoverished."),
                 {.when = has_belief_quality, .required = has_belief_quality, .before = kExamShareRight});
+  fields.kept(&R::discussions, 9);
 }
 
 }  // namespace columns

@@ -37,6 +37,18 @@ struct ResponseRecord {
   std::vector<HalfSpace> covered;       ///< What the test examines and its feedback teaches.
 };
 
+/// A row of discussions.csv: an answer before and after the group saw all answers.
+struct DiscussionRecord {
+  std::size_t period = 0;
+  std::size_t component = 0;           ///< 1-based
+  std::size_t test = 0;                ///< 1-based within the period
+  std::size_t member = 0;              ///< 1-based
+  std::optional<IntegerVector> first;  ///< Feature counts; missing without an answer.
+  bool first_correct = false;
+  std::optional<IntegerVector> revised;  ///< The same as `first` if the member kept it.
+  bool revised_correct = false;
+};
+
 /// A row of demonstrations.csv.
 struct DemonstrationRecord {
   std::size_t period = 0;
@@ -198,6 +210,7 @@ struct TeamRecord {
   std::vector<BeliefSnapshot> beliefs;                     ///< Empty unless RecordLevel::kParticles.
   std::vector<DemonstrationRecord> demonstration_records;  ///< Empty at RecordLevel::kTeam.
   std::vector<ResponseRecord> responses;                   ///< Empty at RecordLevel::kTeam.
+  std::vector<DiscussionRecord> discussions{};             ///< Of groups that talk.
   std::vector<ProgressRecord> progress;                    ///< Empty at RecordLevel::kTeam.
   std::vector<ExamRecord> exams;                           ///< Empty at ExamLevel::kNone.
   std::vector<EstimateRecord> estimates;                   ///< Empty unless StudySpec::estimates.
