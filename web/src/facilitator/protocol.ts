@@ -106,6 +106,8 @@ export interface Answer {
   regret: number;
   ms: number;
   stopped_short: boolean;
+  changed?: boolean; // where groups talk: whether another prediction was taken instead
+  right_in_the_end?: boolean;
 }
 
 export interface CurvePoint {

@@ -23,6 +23,7 @@ const kPersonStages: Record<string, string> = {
   lobby: 'waiting in the lobby',
   watch: 'watching',
   predict: 'answering',
+  discuss: 'comparing predictions',
   wait: 'waiting for the others',
   feedback: 'reading feedback',
   questions: 'answering questions',

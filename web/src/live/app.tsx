@@ -13,6 +13,7 @@ import type { ScreenProps } from './screen';
 import { Check } from './screens/check';
 import { Debrief, Ended } from './screens/closing';
 import { Consent } from './screens/consent';
+import { Discuss } from './screens/discuss';
 import { Feedback } from './screens/feedback';
 import { Landing } from './screens/landing';
 import { Lobby } from './screens/lobby';
@@ -107,8 +108,8 @@ function useLanguage(lang: string | undefined): void {
 
 // Screens of the same kind are new ones if they show something else.
 function screenKey(view: ParticipantView): string {
-  const { stage, progress, watch, predict, screening, wait } = view;
-  const index = { watch: watch?.index, predict: predict?.index, screening: (screening ?? predict)?.index, wait: wait?.for }[stage as 'watch'];
+  const { stage, progress, watch, predict, discuss, screening, wait } = view;
+  const index = { watch: watch?.index, predict: predict?.index, discuss: discuss?.index, screening: (screening ?? predict)?.index, wait: wait?.for }[stage as 'watch'];
   return [stage, progress?.part, progress?.round, index].join('.');
 }
 
@@ -121,7 +122,7 @@ function screenOf(props: ScreenProps): { key: string; screen: JSX.Element } {
 
 function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
   const { view } = props;
-  const { consent, check, screening, lobby, watch, predict, wait, feedback, questions, debrief } = view;
+  const { consent, check, screening, lobby, watch, predict, discuss, wait, feedback, questions, debrief } = view;
   const task = screening ?? predict;
   switch (view.stage) {
     case 'consent':
@@ -136,6 +137,8 @@ function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
       return watch ? <Watch {...props} watch={watch} /> : null;
     case 'predict':
       return predict ? <Predict {...props} task={predict} isScreening={false} /> : null;
+    case 'discuss':
+      return discuss ? <Discuss {...props} discuss={discuss} /> : null;
     case 'wait':
       return wait ? <Wait {...props} wait={wait} /> : null;
     case 'feedback':

@@ -13,6 +13,7 @@ export type Stage =
   | 'lobby'
   | 'watch'
   | 'predict'
+  | 'discuss'
   | 'wait'
   | 'feedback'
   | 'questions'
@@ -101,8 +102,10 @@ export interface ParticipantView {
   // world and state: the table of moves and the start in it, if people sketch the path first
   watch?: { index: number; of: number; board: PlayBoard; runs?: Runs; world?: string; state?: number } & Path;
   predict?: Task;
+  // what the group predicted for a test, every path once, without names; n: how many predicted it
+  discuss?: { index: number; of: number; board: PlayBoard; predictions: ({ own: boolean; n: number } & Path)[] };
   wait?: {
-    for: 'answers' | 'others-watching' | 'teacher' | 'feedback' | 'joining' | 'rejoining';
+    for: 'answers' | 'others-watching' | 'discussion' | 'teacher' | 'feedback' | 'joining' | 'rejoining';
     missing: number;
     since_ms: number;
   };
@@ -127,6 +130,7 @@ export interface Commands {
   watched: { demo: number };
   draft: { test: number; actions: number[] };
   answer: { test: number; actions: number[]; for_ever?: true; keys: KeyPress[]; ms: number };
+  discuss: { test: number; choice: number | null; ms: number }; // null: keeps the own one
   continue: Record<string, never>;
   explore: { world?: number; map?: string[]; start: Frame };
   questions: { answers: Record<string, string | number> };

@@ -25,6 +25,7 @@ const kBodies = {
   watched: ['demo'],
   draft: ['actions', 'test'],
   answer: ['actions', 'keys', 'ms', 'test'],
+  discuss: ['choice', 'ms', 'test'],
   continue: [],
   questions: ['answers'],
   leave: [],

@@ -196,6 +196,22 @@ export function makeViews(lesson, now = Date.now()) {
     robot_repeats_text: repeats.repeats_text,
     differs_at: 1,
   });
+  const { progress, ...shownTest } = views['feedback-wrong'];
+  const [compared] = shownTest.feedback.tests;
+  const discuss = {
+    index: 0,
+    of: 2,
+    board: compared.board,
+    predictions: [
+      { frames: compared.robot, own: false, n: 2 },
+      { frames: compared.mine, own: true, n: 1 },
+    ],
+  };
+  views.discuss = { ...views.predict, stage: 'discuss', progress, predict: undefined, discuss };
+  views['discuss-none'] = structuredClone(views.discuss);
+  views['discuss-none'].discuss.predictions[1].own = false;
+  views['wait-discussion'] = structuredClone(views.wait);
+  views['wait-discussion'].wait.for = 'discussion';
   views['feedback-others'] = structuredClone(views['feedback-right']);
   Object.assign(views['feedback-others'].feedback, { all_right: true, learned: false, others_unsure: true });
   views.patchwork = { ...views.watch, watch: { ...views.watch.watch, board: patchwork(lesson.domain), frames: [{ robot: [1, 1], items: [], stations: [] }] } };

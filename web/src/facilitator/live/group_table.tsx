@@ -21,8 +21,9 @@ function columnsOf(answers: Answer[]): Column[] {
   return sorted.map((column, i) => ({ ...column, isFirst: sorted[i - 1]?.period !== column.period }));
 }
 
-export const answerText = ({ right, regret, ms, stopped_short }: Answer): string =>
-  `${right ? 'right' : 'wrong'}${stopped_short ? ', stopped before the end' : ''}, regret ${regret.toFixed(2)}, ${secondsText(ms)}`;
+export const answerText = ({ right, regret, ms, stopped_short, changed, right_in_the_end }: Answer): string =>
+  `${right ? 'right' : 'wrong'}${stopped_short ? ', stopped before the end' : ''}, regret ${regret.toFixed(2)}, ${secondsText(ms)}` +
+  (changed ? `, then changed to ${right_in_the_end ? 'a right' : 'a wrong'} one` : '');
 
 interface GroupTableProps {
   study: StudyInfo;

@@ -48,6 +48,7 @@ const kPhases: Record<string, string> = {
   teacher: 'Teacher chooses',
   watch: 'Demonstrations',
   predict: 'Tests',
+  discuss: 'Discussion',
   feedback: 'Feedback',
   questions: 'Questions',
 };

@@ -96,6 +96,7 @@ const kLimits: Record<string, string> = {
   watch_s: 'demonstrations of a period',
   predict_s: 'tests of a period',
   feedback_s: 'feedback',
+  discuss_s: 'discussion of a period',
   lobby_s: 'lobby',
   leave_after_s: 'a waiting person may leave with a code after',
   max_minutes: 'whole session',
