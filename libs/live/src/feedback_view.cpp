@@ -130,7 +130,7 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
   const auto& atlas = *room.study.atlas;
   const auto& domain = atlas.domain();
   const auto& past = room.state.session->history().back();
-  const auto& verdicts = past.feedback.verdicts[*seat.member];
+  const auto& verdicts = past.feedback.final_verdicts(*seat.member);
   Json tests = Json::array();
   for (std::size_t t = 0; t < past.lesson.tests.size(); ++t) {
     const auto& test = past.lesson.tests[t];
@@ -175,7 +175,7 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
   for (std::size_t m = 0; m < all_correct.size(); ++m) {
     others_unsure = others_unsure || (m != *seat.member && !past.feedback.verdicts[m].empty() && !all_correct[m]);
   }
-  const bool all_right = all_correct[*seat.member];
+  const bool all_right = past.feedback.all_right_in_the_end(*seat.member);
   const bool learned = past.feedback.component_learned;
   Json feedback{{"tests", tests},
                 {"all_right", all_right},

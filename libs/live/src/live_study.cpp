@@ -262,22 +262,24 @@ Json live_study_json(const LiveStudy& study) {
     types.push_back({{"letter", std::string{type.letter}}, {"label", type.label}});
   }
   const auto& group = study.group();
-  return {{"id", study.spec.id},
-          {"title", study.spec.title},
-          {"domain", study.atlas->domain().id()},
-          {"strategies", strategies},
-          {"types", types},
-          {"compositions", compositions},
-          {"size", size},
-          {"dropout", std::string{name_of(group.dropout.policy)}},
-          {"grace_s", group.dropout.grace_s},
-          {"time",
-           {{"watch_s", group.time.watch_s},
-            {"predict_s", group.time.predict_s},
-            {"feedback_s", group.time.feedback_s},
-            {"lobby_s", group.time.lobby_s},
-            {"leave_after_s", group.time.leave_after_s},
-            {"max_minutes", group.time.max_minutes}}}};
+  Json info{{"id", study.spec.id},
+            {"title", study.spec.title},
+            {"domain", study.atlas->domain().id()},
+            {"strategies", strategies},
+            {"types", types},
+            {"compositions", compositions},
+            {"size", size},
+            {"dropout", std::string{name_of(group.dropout.policy)}},
+            {"grace_s", group.dropout.grace_s},
+            {"time",
+             {{"watch_s", group.time.watch_s},
+              {"predict_s", group.time.predict_s},
+              {"feedback_s", group.time.feedback_s},
+              {"lobby_s", group.time.lobby_s},
+              {"leave_after_s", group.time.leave_after_s},
+              {"max_minutes", group.time.max_minutes}}}};
+  if (group.discussion.choice.is_held()) info["time"]["discuss_s"] = group.time.discuss_s;
+  return info;
 }
 
 Json language_json(const LiveStudy& study) {

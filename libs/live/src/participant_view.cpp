@@ -115,7 +115,7 @@ class ParticipantPage {
     if (state_.phase == RoomPhase::kFeedback && !session.history().empty()) {
       return session.history().back().lesson.component + 1;
     }
-    if (state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting) {
+    if (is_open_lesson(state_.phase)) {
       return session.lesson().component + 1;
     }
     return std::min(static_cast<std::size_t>(over) + 1, parts);
@@ -149,6 +149,8 @@ class ParticipantPage {
       const auto& tests = state_.session->lesson().tests;
       const auto test = current_test(seat_);
       view["predict"] = task(tests[test].demo, test, tests.size(), seat_.draft);
+    } else if (stage == "discuss") {
+      view["discuss"] = discussion();
     } else if (stage == "wait") {
       view["wait"] = wait();
     } else if (stage == "feedback") {
@@ -165,7 +167,7 @@ class ParticipantPage {
     if (may_explore && room_.study.group().screens.explore && can_explore(room_.study.atlas->domain())) {
       view["explore"] = explore_json(room_, seat_);
     }
-    if (state_.deadline_us && (stage == "watch" || stage == "predict" || stage == "feedback")) {
+    if (state_.deadline_us && (stage == "watch" || stage == "predict" || stage == "discuss" || stage == "feedback")) {
       view["limit_ms"] = in_ms(*state_.deadline_us);
     }
   }
@@ -183,6 +185,27 @@ class ParticipantPage {
             {"world", world_key(room_.study, room_.study.atlas->id(demo).mdp)},
             {"start", start_number(demo)},
             {"draft", draft}};
+  }
+
+  // What the group predicted, without names; which one is the own, and how many predicted each.
+  [[nodiscard]] Json discussion() const {
+    const auto test = current_choice(seat_);
+    const auto demo = state_.session->lesson().tests[test].demo;
+    const auto& domain = room_.study.atlas->domain();
+    const auto own = own_entry(state_, test, *seat_.member);
+    Json predictions = Json::array();
+    for (std::size_t e = 0; e < state_.board[test].size(); ++e) {
+      const auto& entry = state_.board[test][e];
+      const auto path = judged_path(*room_.study.atlas, demo, entry.path.actions, entry.path.for_ever).path;
+      auto prediction = path_json(domain, room_.study.atlas->id(demo).mdp, path);
+      prediction["own"] = own == e;
+      prediction["n"] = entry.members.size();
+      predictions.push_back(std::move(prediction));
+    }
+    return {{"index", test},
+            {"of", state_.board.size()},
+            {"board", live_board(room_.study, demo)},
+            {"predictions", predictions}};
   }
 
   [[nodiscard]] Json watch() const {

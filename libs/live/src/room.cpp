@@ -222,7 +222,11 @@ std::vector<TeachingTask> Room::likely_teaching() const {
   if (setup_->is_waiting_list) return tasks;
   if (state.phase == RoomPhase::kLobby) {
     tasks.push_back(*next_task(study_, *setup_, state, {}));
-  } else if (state.phase == RoomPhase::kTesting) {
+  } else if (state.phase == RoomPhase::kDiscussing) {
+    // Those who have not decided yet will keep their answers.
+    std::vector<SessionEvent> ahead{AnswersDiscussed{revised_answers(state)}, TestsClosed{}, FeedbackGiven{}};
+    tasks.push_back(*next_task(study_, *setup_, state, std::move(ahead)));
+  } else if (state.phase == RoomPhase::kTesting && !study_->group().discussion.choice.is_held()) {
     // Those who have not answered yet will be right.
     std::vector<SessionEvent> ahead;
     const auto& tests = state.session->lesson().tests;

@@ -142,6 +142,10 @@ class RoomChange {
     person.since_us = event_.at_us;
     if (current_test(person) == person.paths.size()) step_.give_answers(actor());
   }
+  void happen(const Discussed& e) {
+    who().choices.at(e.test) = BoardChoice{e.choice};
+    who().since_us = event_.at_us;
+  }
   void happen(const Continued&) {
     who().has_continued = true;
     who().since_us = event_.at_us;

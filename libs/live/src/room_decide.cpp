@@ -147,6 +147,29 @@ class SeatDecider {
     return accepted(Answered{number, *actions, *keys, *ms, *for_ever});
   }
 
+  // No choice: keeps the own answer.
+  [[nodiscard]] Decision ask(OfKind<Discussed>) const {
+    const auto test = integer_in(command_.body, "test", 0, 1000);
+    const auto ms = integer_in(command_.body, "ms", 0, kMostMillis);
+    const auto given = command_.body.find("choice");
+    const bool keeps = given == command_.body.end() || given->is_null();
+    const auto choice = keeps ? std::nullopt : integer_in(command_.body, "choice", 0, 1000);
+    if (!test || !ms || (!keeps && !choice)) return bad_body();
+    if (state_.phase != RoomPhase::kDiscussing || !seat_.in_period) {
+      return state_.phase == RoomPhase::kTesting || state_.phase == RoomPhase::kWatching ? not_now() : too_late();
+    }
+    const auto number = static_cast<std::size_t>(*test);
+    BoardChoice wanted;
+    if (choice) wanted.entry = static_cast<std::size_t>(*choice);
+    if (number < seat_.choices.size() && seat_.choices[number]) {
+      if (*seat_.choices[number] == wanted) return nothing_to_do();
+      return refused("already-answered", "You have already decided about this question.");
+    }
+    if (number >= seat_.choices.size() || number != current_choice(seat_)) return not_now();
+    if (wanted.entry && *wanted.entry >= state_.board[number].size()) return bad_body();
+    return accepted(Discussed{number, wanted.entry, *ms});
+  }
+
   [[nodiscard]] Decision ask(OfKind<Continued>) const {
     if (state_.phase != RoomPhase::kFeedback || !seat_.in_period) {
       return is_running(state_) || state_.phase == RoomPhase::kQuestions ? nothing_to_do() : not_now();

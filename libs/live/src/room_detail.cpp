@@ -61,8 +61,7 @@ class RoomDetailPage {
 
   // The one that people see; while they read the feedback that of the period behind them.
   [[nodiscard]] const Lesson* current_lesson() const {
-    const bool is_taught = state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting;
-    return is_taught ? &state_.session->lesson() : last_lesson(state_);
+    return is_open_lesson(state_.phase) ? &state_.session->lesson() : last_lesson(state_);
   }
 
   [[nodiscard]] std::string why(const Lesson& lesson) const {
@@ -103,8 +102,7 @@ class RoomDetailPage {
       entry["sentences"] = plain_sentences(domain_, test.covered);
       tests.push_back(std::move(entry));
     }
-    const bool is_current = state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting;
-    if (state_.runners_up && is_current) {
+    if (state_.runners_up && is_open_lesson(state_.phase)) {
       for (const auto& other : *state_.runners_up) {
         others.push_back({{"board", live_board(room_.study, other.demo)},
                           {"gain", other.gain},
@@ -130,6 +128,9 @@ class RoomDetailPage {
                       {"regret", answer.regret},
                       {"ms", answer.ms},
                       {"stopped_short", answer.stopped_short}});
+      if (!answer.right_in_the_end) continue;
+      list.back()["changed"] = answer.changed;
+      list.back()["right_in_the_end"] = *answer.right_in_the_end;
     }
     return list;
   }

@@ -29,6 +29,7 @@ class RoomBytes {
       bytes_.flag(member.is_away);
       bytes_.flag(state_.summary ? state_.summary->has_learner[m] : member.learner != nullptr);
       add(member.response.answers);
+      if (!member.revised.empty()) add(member.revised);
     }
     for (const auto& [cell, count] : state_.groups) {
       bytes_.text(cell);
@@ -86,6 +87,10 @@ class RoomBytes {
       bytes_.integer(path->ms);
     }
     add(seat.draft);
+    for (const auto& choice : seat.choices) {  // none where groups do not talk
+      bytes_.flag(choice.has_value());
+      bytes_.count(choice && choice->entry ? *choice->entry + 1 : 0);
+    }
     bytes_.count(seat.right);
     bytes_.count(seat.tests);
     if (seat.explorations > 0) bytes_.count(seat.explorations);  // as before where nobody explores

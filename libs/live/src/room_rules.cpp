@@ -18,6 +18,8 @@ PhaseRules rules_of(RoomPhase phase) noexcept {
       return {RoomStage::kRunning, "watch", "others-watching", &GroupTime::watch_s};
     case RoomPhase::kTesting:
       return {RoomStage::kRunning, "predict", "answers", &GroupTime::predict_s};
+    case RoomPhase::kDiscussing:
+      return {RoomStage::kRunning, "discuss", "discussion", &GroupTime::discuss_s};
     case RoomPhase::kFeedback:
       return {RoomStage::kRunning, "feedback", "feedback", &GroupTime::feedback_s};
     case RoomPhase::kQuestions:
@@ -28,12 +30,18 @@ PhaseRules rules_of(RoomPhase phase) noexcept {
   return {};
 }
 
+bool is_open_lesson(RoomPhase phase) noexcept {
+  return phase == RoomPhase::kWatching || phase == RoomPhase::kTesting || phase == RoomPhase::kDiscussing;
+}
+
 bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept {
   switch (state.phase) {
     case RoomPhase::kWatching:
       return seat.watched >= state.session->lesson().demonstrations.size();
     case RoomPhase::kTesting:
       return seat.has_answered;
+    case RoomPhase::kDiscussing:
+      return std::all_of(seat.choices.begin(), seat.choices.end(), [](const auto& one) { return one.has_value(); });
     case RoomPhase::kFeedback:
       return seat.has_continued;
     case RoomPhase::kLobby:
@@ -76,6 +84,37 @@ std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
 std::size_t current_test(const LiveSeat& seat) noexcept {
   const auto first = std::find_if(seat.paths.begin(), seat.paths.end(), [](const auto& path) { return !path; });
   return static_cast<std::size_t>(first - seat.paths.begin());
+}
+
+std::size_t current_choice(const LiveSeat& seat) noexcept {
+  const auto first = std::find_if(seat.choices.begin(), seat.choices.end(), [](const auto& one) { return !one; });
+  return static_cast<std::size_t>(first - seat.choices.begin());
+}
+
+std::optional<std::size_t> own_entry(const Room::State& state, std::size_t test, std::size_t member) {
+  const auto& entries = state.board.at(test);
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    const auto& members = entries[e].members;
+    if (std::find(members.begin(), members.end(), member) != members.end()) return e;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::vector<Answer>> revised_answers(const Room::State& state) {
+  std::vector<std::vector<Answer>> revised(state.members.size());
+  for (std::size_t m = 0; m < state.members.size(); ++m) {
+    const auto& member = state.members[m];
+    if (!state.session->has_answered(m) || !state.session->takes_part(m) || !member.seat) continue;
+    revised[m] = member.revised;
+    const auto& seat = state.seats[*member.seat];
+    if (!seat.is_person || seat.choices.empty()) continue;
+    auto answers = state.session->answers(m);
+    for (std::size_t t = 0; t < seat.choices.size(); ++t) {
+      if (seat.choices[t] && seat.choices[t]->entry) answers[t] = state.board[t][*seat.choices[t]->entry].path.counts;
+    }
+    if (answers != state.session->answers(m)) revised[m] = std::move(answers);
+  }
+  return revised;
 }
 
 std::optional<std::size_t> first_reserve(const Room::State& state) noexcept {

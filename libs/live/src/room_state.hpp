@@ -25,7 +25,8 @@ enum class SeatStatus {
   kGone,     ///< For good, unless a facilitator readmits them.
 };
 
-enum class RoomPhase { kLobby, kTeaching, kWatching, kTesting, kFeedback, kQuestions, kEnded };
+/// The order stays: digests count in it.
+enum class RoomPhase { kLobby, kTeaching, kWatching, kTesting, kFeedback, kQuestions, kEnded, kDiscussing };
 
 /// A person's path in answer to one test.
 struct GivenPath {
@@ -34,6 +35,18 @@ struct GivenPath {
   bool is_finished = false;
   Answer counts{};
   std::int64_t ms = 0;
+};
+
+/// A prediction on the board of a discussion: what one or several members answered.
+struct BoardAnswer {
+  GivenPath path;
+  std::vector<std::size_t> members;
+};
+
+/// What somebody does about their answer in a discussion: takes that of the board, or keeps the own one.
+struct BoardChoice {
+  std::optional<std::size_t> entry{};
+  friend bool operator==(const BoardChoice&, const BoardChoice&) = default;
 };
 
 /// A person or a stand-in.
@@ -63,6 +76,7 @@ struct LiveSeat {
   bool has_answered = false;                    ///< All tests, or the time is over.
   std::vector<std::size_t> draft;               ///< Of the first test without a path.
   bool has_continued = false;
+  std::vector<std::optional<BoardChoice>> choices;  ///< Per test; none: undecided. Empty before a discussion.
   std::shared_ptr<const Json> exploration;  ///< What was explored last, see Exploration::shown; null: nothing yet.
 
   std::vector<HalfSpace> explored;  ///< What all explorations conveyed, each once.
@@ -81,6 +95,7 @@ struct LiveMember {
   bool is_newcomer = false;                ///< And who has not been taught before.
   std::shared_ptr<const Learner> learner;  ///< Of a stand-in.
   Learner::Response response;              ///< To the tests of the current lesson.
+  std::vector<Answer> revised;             ///< Of a stand-in, after the discussion of these; empty: keeps all.
 };
 
 struct LiveNotice {
@@ -98,6 +113,8 @@ struct LiveAnswer {
   double regret = 0.0;
   std::int64_t ms = 0;
   bool stopped_short = false;
+  std::optional<bool> right_in_the_end{};  ///< After a discussion.
+  bool changed = false;                    ///< Whether it was given up in a discussion.
 };
 
 /// Knowledge at the end of a period.
@@ -138,6 +155,8 @@ struct Room::State {
   bool has_extra = false;                     ///< Whether a time limit was extended.
   std::map<std::string, std::size_t> groups;  ///< Of a waiting list, how many were formed: by "strategy/composition".
 
+  std::vector<std::vector<BoardAnswer>> board;  ///< Of a discussion: per test, in the order of the paths.
+
   std::vector<LiveNotice> notices;
   std::vector<LiveAnswer> answers;
   std::vector<LiveCurvePoint> curves;
@@ -152,6 +171,8 @@ struct PhaseRules {
   std::int64_t GroupTime::*limit{};  ///< In seconds; null: none.
 };
 [[nodiscard]] PhaseRules rules_of(RoomPhase phase) noexcept;
+/// Whether a lesson is under way whose feedback has not been given: Session::lesson() is what people work on.
+[[nodiscard]] bool is_open_lesson(RoomPhase phase) noexcept;
 
 /// A room as its parts see it.
 struct RoomParts {
@@ -177,6 +198,12 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat);
 /// The test that a person works on: the first without a path. @pre not all are given.
 [[nodiscard]] std::size_t current_test(const LiveSeat& seat) noexcept;
+/// In a discussion, the test that a person is asked about: the first without a choice. @pre not all have one.
+[[nodiscard]] std::size_t current_choice(const LiveSeat& seat) noexcept;
+/// Which prediction of the board is that of a member; none if it is not there.
+[[nodiscard]] std::optional<std::size_t> own_entry(const Room::State& state, std::size_t test, std::size_t member);
+/// What the members answer if those who have not decided keep their answers, as Session::discuss() takes it.
+[[nodiscard]] std::vector<std::vector<Answer>> revised_answers(const Room::State& state);
 /// A seat of the reserve that can take over: the one that has been ready for longest.
 [[nodiscard]] std::optional<std::size_t> first_reserve(const Room::State& state) noexcept;
 /// The address of the room's streams.

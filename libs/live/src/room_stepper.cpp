@@ -1,6 +1,7 @@
 #include "room_stepper.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "kith/study/team_streams.hpp"
 
@@ -114,8 +115,11 @@ void RoomStepper::revert() {
       member.is_newcomer = !state_.seats[*member.seat].has_taken_part;
     }
     member.response = {};
+    member.revised.clear();
   }
   state_.members_before.clear();
+  state_.board.clear();
+  for (auto& seat : state_.seats) seat.choices.clear();
   state_.runners_up.reset();
   for (auto& seat : state_.seats) seat.in_period = seat.in_period && state_.phase == RoomPhase::kFeedback;
 }
@@ -176,7 +180,15 @@ void RoomStepper::advance() {
         break;
       case RoomPhase::kTesting:
         if (!all_done()) return;
-        finish_tests();
+        if (study_.group().discussion.choice.is_held() && can_discuss(*state_.session)) {
+          begin_discussion();
+        } else {
+          finish_tests();
+        }
+        break;
+      case RoomPhase::kDiscussing:
+        if (!all_done()) return;
+        finish_discussion();
         break;
       case RoomPhase::kFeedback:
         if (!all_done()) return;
@@ -228,7 +240,9 @@ void RoomStepper::begin_watching() {
     seat.has_answered = seat.paths.empty();
     seat.has_continued = false;
     seat.exploration.reset();
+    seat.choices.clear();
   }
+  state_.board.clear();
   state_.period_us = at_us_;
   begin_phase(RoomPhase::kWatching);
 }
@@ -252,6 +266,11 @@ void RoomStepper::finish_phase(std::size_t seat) {
       return;
     case RoomPhase::kTesting:
       return give_answers(seat);  // those that were given: a path that was not submitted is none
+    case RoomPhase::kDiscussing:
+      for (auto& choice : who.choices) {
+        if (!choice) choice.emplace();  // keeps the answer
+      }
+      return;
     case RoomPhase::kFeedback:
       who.has_continued = true;
       return;
@@ -274,6 +293,95 @@ void RoomStepper::give_answers(std::size_t seat) {
   who.draft.clear();
 }
 
+// Stand-ins talk at once; people see what everybody answered and decide.
+void RoomStepper::begin_discussion() {
+  const auto& session = *state_.session;
+  const auto team = team_stream(study_.spec, address_of(setup_));
+  std::vector<RandomStream> persons;
+  Learners stand_ins;
+  std::vector<Learner*> talking;
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    persons.push_back(person_stream(team, m + 1));
+    const auto& member = state_.members[m];
+    const bool talks = member.learner && session.has_answered(m) && session.takes_part(m);
+    stand_ins.push_back(talks ? member.learner->clone() : nullptr);
+    talking.push_back(stand_ins.back().get());
+  }
+  auto revised = discuss(study_.group().discussion.choice, session, cache_, talking, persons);
+  make_board();
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    if (!stand_ins[m]) continue;
+    state_.members[m].learner = std::move(stand_ins[m]);
+    state_.members[m].revised = std::move(revised[m]);
+  }
+  for (auto& seat : state_.seats) {
+    if (!gates(seat)) continue;
+    seat.choices.assign(state_.board.size(), std::nullopt);
+    for (std::size_t t = 0; t < state_.board.size(); ++t) {
+      const auto own = own_entry(state_, t, *seat.member);
+      if (state_.board[t].size() <= (own ? 1u : 0u)) seat.choices[t].emplace();  // there is nothing else
+    }
+  }
+  begin_phase(RoomPhase::kDiscussing);
+}
+
+// What was answered, without names: every path once. The order is that of the paths, so that it tells nobody's seat.
+void RoomStepper::make_board() {
+  const auto& tests = state_.session->lesson().tests;
+  state_.board.assign(tests.size(), {});
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    auto& entries = state_.board[t];
+    for (std::size_t m = 0; m < state_.members.size(); ++m) {
+      const auto path = path_of(m, t);
+      if (!path) continue;
+      const auto known = std::find_if(entries.begin(), entries.end(), [&](const BoardAnswer& one) {
+        return one.path.actions == path->actions && one.path.for_ever == path->for_ever;
+      });
+      if (known != entries.end()) {
+        known->members.push_back(m);
+      } else {
+        entries.push_back({*path, {m}});
+      }
+    }
+    std::sort(entries.begin(), entries.end(), [](const BoardAnswer& a, const BoardAnswer& b) {
+      return std::tie(a.path.actions, a.path.for_ever) < std::tie(b.path.actions, b.path.for_ever);
+    });
+  }
+}
+
+// The answer of a member to a test as a path that can be drawn. A stand-in's is the best one for the weights it had in
+// mind; nothing where its answer is none of these, such as a slip.
+std::optional<GivenPath> RoomStepper::path_of(std::size_t member, std::size_t test) const {
+  const auto& place = state_.members[member];
+  if (!state_.session->has_answered(member) || !place.seat) return std::nullopt;
+  const auto& seat = state_.seats[*place.seat];
+  if (seat.is_person) return test < seat.paths.size() ? seat.paths[test] : std::nullopt;
+  const auto& answer = state_.session->answers(member)[test];
+  if (!answer || !place.response.weights) return std::nullopt;
+  const auto demo = state_.session->lesson().tests[test].demo;
+  const auto drawn = cache_.behaviours().trajectory(demo, *place.response.weights);
+  if (!drawn || drawn->repeats_from) return std::nullopt;
+  GivenPath path{.actions = {}, .is_finished = true, .counts = answer};
+  for (const auto action : drawn->actions) path.actions.push_back(action.value());
+  const auto judged = judged_path(*study_.atlas, demo, path.actions, false);
+  const bool is_it = judged.is_legal && (!study_.atlas->domain().mdp(study_.atlas->id(demo).mdp).is_deterministic() ||
+                                         judged.counts == answer);
+  return is_it ? std::optional{path} : std::nullopt;
+}
+
+void RoomStepper::finish_discussion() {
+  auto session = *state_.session;
+  session.discuss(revised_answers(state_));
+  state_.session = std::make_shared<const Session>(std::move(session));
+  finish_tests();
+  for (auto& seat : state_.seats) {  // what is judged now is what they answered in the end
+    for (std::size_t t = 0; seat.in_period && t < seat.choices.size(); ++t) {
+      if (seat.choices[t] && seat.choices[t]->entry) seat.paths[t] = state_.board[t][*seat.choices[t]->entry].path;
+    }
+  }
+  for (auto& member : state_.members) member.revised.clear();
+}
+
 void RoomStepper::finish_tests() {
   auto session = *state_.session;
   session.close_tests();
@@ -283,7 +391,7 @@ void RoomStepper::finish_tests() {
     auto& member = state_.members[m];
     if (!member.learner || !session.takes_part(m)) continue;
     const auto learner = std::shared_ptr<Learner>{member.learner->clone()};
-    learner->hear_feedback(past.feedback.all_correct[m], past.feedback.half_spaces, past.lesson.period);
+    learner->hear_feedback(past.feedback.all_right_in_the_end(m), past.feedback.half_spaces, past.lesson.period);
     member.learner = learner;
     member.response = {};
   }
@@ -312,6 +420,10 @@ void RoomStepper::record_answers() {
                                 .regret = verdicts[t].regret,
                                 .ms = path ? path->ms : 0,
                                 .stopped_short = path && !path->is_finished});
+      if (past.revised.empty()) continue;
+      const auto& revised = past.revised[*seat.member];
+      state_.answers.back().right_in_the_end = past.feedback.final_verdicts(*seat.member)[t].correct;
+      state_.answers.back().changed = !revised.empty() && revised[t] != past.answers[*seat.member][t];
     }
   }
 }

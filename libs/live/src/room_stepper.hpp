@@ -38,6 +38,10 @@ class RoomStepper {
   void begin_phase(RoomPhase phase);
   void begin_watching();
   void begin_tests();
+  void begin_discussion();
+  void make_board();
+  [[nodiscard]] std::optional<GivenPath> path_of(std::size_t member, std::size_t test) const;
+  void finish_discussion();
   void finish_tests();
   void record_answers();
   void record_curves();

@@ -26,7 +26,9 @@ class SessionBytes {
       lesson(past.lesson);
       for (const auto& list : past.answers) answers(list);
       feedback(past.feedback);
+      for (const auto& list : past.revised) answers(list);
     }
+    if (session_.has_discussed()) bytes_.flag(true);
     if (session_.phase() != SessionPhase::kProposal && session_.phase() != SessionPhase::kFinished) {
       lesson(session_.lesson());
     }

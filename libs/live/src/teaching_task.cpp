@@ -52,6 +52,9 @@ struct EventBytes {
   void operator()(const MemberReturned& event) const { bytes.count(event.member); }
   void operator()(const StrategyChanged& event) const { bytes.text(event.strategy.name); }
   void operator()(const MemberReplaced& event) const { bytes.count(event.member); }
+  void operator()(const AnswersDiscussed& event) const {
+    for (std::size_t m = 0; m < event.revised.size(); ++m) (*this)(TestsAnswered{m, event.revised[m]});
+  }
 };
 
 std::string key_of(const TeachingTask::Content& content) {
@@ -110,7 +113,8 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
     const auto& past = session.history().back();
     for (std::size_t m = 0; m < taught.learners.size(); ++m) {
       if (!taught.learners[m] || !session.takes_part(m)) continue;
-      taught.learners[m]->hear_feedback(past.feedback.all_correct[m], past.feedback.half_spaces, past.lesson.period);
+      taught.learners[m]->hear_feedback(past.feedback.all_right_in_the_end(m), past.feedback.half_spaces,
+                                        past.lesson.period);
     }
   }
   if (content_.strategy && component_is_over(session)) session.change_strategy(*content_.strategy);

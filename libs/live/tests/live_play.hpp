@@ -188,6 +188,16 @@ class Play {
     }
   }
   /// One step on whatever page the person is on.
+  /// Keeps the answer to the test that the page asks about, or takes another prediction of the board.
+  std::string discuss(std::size_t number, bool keep = true) {
+    const auto shown = room_.view({Viewer::Role::kParticipant, number}, now_us_)["discuss"];
+    Json choice;
+    for (std::size_t i = 0; i < shown["predictions"].size() && !keep; ++i) {
+      if (!shown["predictions"][i]["own"].get<bool>()) choice = i;
+    }
+    return seat(number, "discuss", {{"test", shown["index"]}, {"choice", choice}, {"ms", 5}});
+  }
+
   void act(std::size_t number, bool right = true) {
     const auto stage = room_.stage_of(number);
     if (stage == "watch") watch(number);

@@ -20,12 +20,13 @@ class TeamLog final : public TeamObserver {
   std::optional<Session> end;
 };
 
-class RoomsOfStandIns : public ::testing::TestWithParam<std::tuple<const char*, const char*, std::size_t>> {};
+class RoomsOfStandIns
+    : public ::testing::TestWithParam<std::tuple<const char*, const char*, std::size_t, const char*>> {};
 
 // A live session of simulated learners and `kith study` give the same lessons and beliefs, to the bit.
 TEST_P(RoomsOfStandIns, EqualTheStudy) {
-  const auto [strategy, composition, replicate] = GetParam();
-  const auto study = live_study();
+  const auto [strategy, composition, replicate, model] = GetParam();
+  const auto study = live_study("[group.discussion]\nmodel = \"" + std::string{model} + "\"\n");
   Play play{study, RoomSetup{.id = "r",
                              .code = "c",
                              .strategy = strategy,
@@ -45,6 +46,7 @@ TEST_P(RoomsOfStandIns, EqualTheStudy) {
   ASSERT_TRUE(log.end);
   const auto& live = play.room().session();
   ASSERT_GT(record.periods, 2u);
+  EXPECT_EQ(record.discussions.empty(), model == std::string_view{"none"});
   EXPECT_EQ(live.periods(), record.periods);
   ASSERT_EQ(live.history().size(), log.end->history().size());
   EXPECT_TRUE(std::equal(live.history().begin(), live.history().end(), log.end->history().begin()));
@@ -58,11 +60,14 @@ TEST_P(RoomsOfStandIns, EqualTheStudy) {
   EXPECT_EQ(again.digest(), play.room().digest());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RoomsOfStandIns,
-                         ::testing::Values(std::tuple{"common", "NNP", 1u}, std::tuple{"common", "NNP", 2u},
-                                           std::tuple{"common", "NN", 3u}, std::tuple{"joint", "NNP", 1u},
-                                           std::tuple{"joint", "NNP", 3u}, std::tuple{"individual-low", "NN", 2u},
-                                           std::tuple{"baseline", "N", 1u}));
+INSTANTIATE_TEST_SUITE_P(
+    All, RoomsOfStandIns,
+    ::testing::Values(std::tuple{"common", "NNP", 1u, "none"}, std::tuple{"common", "NNP", 2u, "none"},
+                      std::tuple{"common", "NN", 3u, "none"}, std::tuple{"joint", "NNP", 1u, "none"},
+                      std::tuple{"joint", "NNP", 3u, "none"}, std::tuple{"individual-low", "NN", 2u, "none"},
+                      std::tuple{"baseline", "N", 1u, "none"}, std::tuple{"common", "NNP", 1u, "degroot"},
+                      std::tuple{"joint", "NN", 2u, "degroot"}, std::tuple{"common", "NNP", 1u, "majority"},
+                      std::tuple{"individual-low", "NNP", 2u, "truth-wins"}));
 
 TEST(Room, ChoosesTheSameLessonWhoeverAnswersFirst) {
   Play a{live_study()}, b{live_study()};

@@ -41,6 +41,25 @@ BotAct path_for(const Json& task, const std::string& type, const std::string& pe
           .start = task.value("start", -1)};
 }
 
+// Takes the prediction that most of the group made, and keeps the own one if that is not clear.
+BotAct decision_on(const Json& shown, const std::string& stage) {
+  const auto& predictions = shown.at("predictions");
+  std::size_t most = 0;
+  bool is_tied = false;
+  Json choice;
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    const auto n = predictions[i].value("n", std::size_t{0});
+    is_tied = n == most;
+    if (n <= most) continue;
+    most = n;
+    choice = predictions[i].value("own", false) ? Json{} : Json(i);
+  }
+  return {.type = "discuss",
+          .body = {{"test", shown.value("index", 0)}, {"choice", is_tied ? Json{} : choice}, {"ms", 0}},
+          .key = stage + "/" + number(shown, "index"),
+          .pace = 0.5};
+}
+
 }  // namespace
 
 bool is_last_stage(const std::string& stage) {
@@ -65,6 +84,7 @@ std::optional<BotAct> act_for(const Json& view) try {
                   .pace = 0.5};
   }
   if (stage == "predict") return path_for(view.at("predict"), "answer", period);
+  if (stage == "discuss") return decision_on(view.at("discuss"), stage + period);
   if (stage == "feedback") {
     return BotAct{.type = "continue", .body = Json::object(), .key = stage + period, .pace = 0.3};
   }

@@ -58,6 +58,7 @@ class Collector {
   void note(const Drafted&) {}
   void note(const Continued&) {}
   void note(const Explored&) {}
+  void note(const Discussed&) {}
   void note(const Released&) {}
   void note(const Grouped&) {}
   void note(const Called&) {}

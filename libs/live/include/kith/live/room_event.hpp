@@ -150,6 +150,15 @@ struct Answered {
                                        "for_ever?", &Answered::for_ever};
 };
 
+/// Somebody has seen the answers of the group to a test and keeps the own one, or takes one of the board.
+struct Discussed {
+  static constexpr RoomEventKind kKind{"discussed", "discuss", kSeat};
+  std::size_t test = 0;
+  std::optional<std::size_t> choice{};
+  std::int64_t ms = 0;
+  static constexpr std::tuple kMembers{"test", &Discussed::test, "choice", &Discussed::choice, "ms", &Discussed::ms};
+};
+
 /// Somebody has seen the feedback.
 struct Continued {
   static constexpr RoomEventKind kKind{"continued", "continue", kSeat};
@@ -370,7 +379,8 @@ using RoomHappening =
                  happening::QuestionsAnswered, happening::Left, happening::Away, happening::Present, happening::Dropped,
                  happening::Released, happening::Grouped, happening::Called, happening::Seated, happening::TimeOver,
                  happening::Paused, happening::Resumed, happening::Extended, happening::MessageSent,
-                 happening::Readmitted, happening::Simulated, happening::StrategyNamed, happening::Ended>;
+                 happening::Readmitted, happening::Simulated, happening::StrategyNamed, happening::Ended,
+                 happening::Discussed>;
 
 /// All rows.
 inline constexpr auto kRoomEventKinds = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
