@@ -130,6 +130,18 @@ TableDescription tests_table() {
                       integer("at_ms", "When the answer was saved.", true, "ms since 1970")}};
 }
 
+TableDescription discussions_table() {
+  return {.file = kDiscussionsFile,
+          .description = "One answer before and after the group saw all answers, of people and of stand-ins.",
+          .columns = {session_column(), period_column(), integer("component", "What was taught, from 1."),
+                      integer("test", "Test within the period, from 1."),
+                      integer("seat", "Number of the person in the room, from 1; missing for stand-ins.", false),
+                      integer("member", "Place in the group, from 1."),
+                      boolean("correct", "Whether the first answer is as good as the robot's path."),
+                      boolean("revised_correct", "Whether the answer after the discussion is."),
+                      boolean("changed", "Whether that is another answer.")}};
+}
+
 TableDescription keys_table() {
   return {
       .file = kKeysFile,
@@ -186,9 +198,11 @@ TableDescription events_table() {
 }
 
 std::vector<TableDescription> export_tables(const SessionExportOptions& options) {
-  return {sessions_table(), participants_table(options), periods_table(), tests_table(),
-          keys_table(),     questions_table(options),    trials_table(),  beliefs_table(),
-          events_table()};
+  std::vector<TableDescription> tables{sessions_table(), participants_table(options), periods_table(), tests_table(),
+                                       keys_table(),     questions_table(options),    trials_table(),  beliefs_table(),
+                                       events_table()};
+  if (options.with_discussions) tables.push_back(discussions_table());
+  return tables;
 }
 
 }  // namespace kith

@@ -94,6 +94,7 @@ class Exporter {
       if (!lesson.is_replaced) write_period(lesson);
     }
     write_tests();
+    if (options_.with_discussions) write_discussions();
     write_questions();
     write_trials();
     write_beliefs();
@@ -357,6 +358,23 @@ class Exporter {
     }
   }
 
+  void write_discussions() {
+    for (const auto& past : session().history()) {
+      const auto& feedback = past.feedback;
+      for (std::size_t m = 0; m < past.revised.size(); ++m) {
+        const auto seat = seat_in(past.lesson.period, m + 1);
+        for (std::size_t t = 0; t < feedback.verdicts[m].size(); ++t) {
+          const bool changed = !past.revised[m].empty() && past.revised[m][t] != past.answers[m][t];
+          auto& row = tables_[kDiscussionsFile];
+          row.text(id()).integer(past.lesson.period).integer(past.lesson.component + 1).integer(t + 1);
+          row.integer(seat == 0 ? std::nullopt : std::optional{static_cast<std::int64_t>(seat)}).integer(m + 1);
+          row.boolean(feedback.verdicts[m][t].correct).boolean(feedback.final_verdicts(m)[t].correct).boolean(changed);
+          row.end_row();
+        }
+      }
+    }
+  }
+
   // The person who answered for a member in a period; 0: nobody, or a stand-in.
   [[nodiscard]] std::size_t seat_in(std::size_t period, std::size_t member) const {
     for (const auto& answer : history_->answers) {
@@ -458,7 +476,9 @@ void reconcile(const std::filesystem::path& path, const char* file, std::size_t 
 
 ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStudy>& study, TeachingCache& cache,
                             const SessionExportOptions& options, const ExportSink& sink) {
-  Exporter exporter{study, options, sink};
+  auto told = options;
+  told.with_discussions = study->group().discussion.choice.is_held();
+  Exporter exporter{study, told, sink};
   std::size_t rooms = 0;
   std::size_t events = 0;
   bool is_there = !options.room;

@@ -21,6 +21,7 @@ struct SessionExportOptions {
   std::optional<std::int64_t> room{};  ///< One room; otherwise all.
   bool with_names = false;             ///< Also names, query parameters and completion codes: what identifies people.
   bool with_text = false;              ///< Also what people wrote in their own words.
+  bool with_discussions = false;       ///< Also discussions.csv; export_session() does so where groups talk.
 };
 
 /// What was exported.
