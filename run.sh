@@ -16,6 +16,7 @@ usage: ./run.sh            build kith, run the paper's study into results/paper,
        ./run.sh --setup    install what is missing and build, no more
        ./run.sh --lesson   the same with the engine that `kith lesson` puts into pages
        ./run.sh --python   the same with the module for Python, into build/release/python
+       ./run.sh --packages the same with packages for Debian, into build/packages
        ./run.sh ARGS...    the same, then `kith ARGS...` (./run.sh help: what kith can do)
 
 Installs missing Debian packages first, and says which and how large; that needs
@@ -41,6 +42,11 @@ case ${1:-} in
     module=(-DKITH_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3)
     targets+=(kith_python)
     ;;
+  --packages)
+    packages+=("${packages_for_python[@]}" "${packages_for_site[@]}")
+    module=(-DKITH_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 -DKITH_SITE=ON)
+    targets+=(kith_python kith_site)
+    ;;
 esac
 ensure_packages "${packages[@]}"
 tests=()
@@ -56,6 +62,13 @@ kith=$root/build/release/bin/kith
 case ${1:-} in
   --setup | --lesson)
     say "Ready: build/release/bin/kith"
+    ;;
+  --packages)
+    run_logged "packing" cpack --config build/release/CPackConfig.cmake -B build/packages
+    rm -rf build/packages/_CPack_Packages
+    say "Ready:"
+    du -h build/packages/*.deb >&2
+    say "Install them on Debian 12: apt install ./build/packages/*.deb"
     ;;
   --python)
     say "Ready: PYTHONPATH=$root/build/release/python python3"

@@ -1,5 +1,6 @@
 # `cmake --install`, find_package(kith) and `cpack`; tested by tests/install.
 include(CMakePackageConfigHelpers)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # packages are made of what was built, without tests
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kith)
 
 # A layer is a component of the package: find_package(kith COMPONENTS geometry) looks for what geometry needs only.
@@ -56,6 +57,21 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev, libqrencode-dev, libyaml-dev")
+set(CPACK_COMPONENTS_ALL program development)
+if(KITH_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kith)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${next})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-numpy, python3-pandas")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The module kith for Python")
+endif()
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "The program kith, its manual and documentation")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers, for programs of one's own")
 include(CPack)

@@ -12,6 +12,7 @@ packages_to_build=(
   nodejs npm
 )
 packages_for_python=(pybind11-dev python3-dev python3-numpy python3-pandas)
+packages_for_site=(python3-sphinx python3-myst-parser dpkg-dev)
 packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
 packages_for_lesson=(emscripten)  # LLVM for WebAssembly
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
