@@ -152,6 +152,20 @@ std::optional<Behaviour> behave_in_favour(const Mdp& mdp, std::span<const double
   return behave_as(mdp, weights, robot_weights, options);
 }
 
+std::optional<std::vector<IntegerVector>> count_policy(const Mdp& mdp, std::span<const std::uint32_t> choice,
+                                                       std::int64_t scale) {
+  require(choice.size() == mdp.num_states(), "count_policy", "there must be a choice for every state");
+  require(scale >= 1, "count_policy", "the scale must be at least 1");
+  for (StateIndex s{0}; s.value() < choice.size(); ++s)
+    require(choice[s.value()] < mdp.choices(s).size(), "count_policy", "there is no such choice");
+  const auto policy = detail::make_policy(mdp, {choice.begin(), choice.end()});
+  if (mdp.discount() == 1.0 && !policy.finishes()) return std::nullopt;
+  const auto features = detail::policy_features(mdp, policy);
+  const double most = 0x1p52 / static_cast<double>(scale);
+  if (!std::all_of(features.begin(), features.end(), [&](double x) { return std::abs(x) < most; })) return std::nullopt;
+  return rounded(mdp, features, scale);
+}
+
 bool is_optimal(const Mdp& mdp, const Behaviour& behaviour, std::span<const double> weights, StateIndex s,
                 std::size_t c, double tolerance) {
   constexpr const char* kName = "is_optimal";

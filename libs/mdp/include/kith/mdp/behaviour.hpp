@@ -60,6 +60,15 @@ struct Behaviour {
                                                         std::span<const double> robot_weights,
                                                         const BehaveOptions& options = {});
 
+/// What a policy counts: expected (discounted) feature counts from every state in units of 1 / scale, rounded to
+/// nearest, shape [num_states + num_terminals]. Nothing if it is undiscounted and does not surely end from some state,
+/// or ends so rarely that it cannot be counted.
+/// @param choice  indices into mdp.choices(s), shape [num_states].
+/// @throws std::invalid_argument unless the choices exist and scale >= 1.
+[[nodiscard]] std::optional<std::vector<IntegerVector>> count_policy(const Mdp& mdp,
+                                                                     std::span<const std::uint32_t> choice,
+                                                                     std::int64_t scale = 1);
+
 /// Whether choice `c` of state `s` is as good as any: E[w . phi + discount * V(s')] >= V(s) - tolerance * max(1,
 /// |V(s)|) with the values V of a behaviour.
 /// @pre behave(mdp, weights) or behave_in_favour(mdp, weights, ...) gave the behaviour.
