@@ -95,6 +95,7 @@ const std::vector<FeatureThing>& Domain::feature_things(std::size_t k) const {
   return k < data_->feature_things.size() ? data_->feature_things[k] : kNone;
 }
 const RewardWeights& Domain::weights() const noexcept { return data_->weights; }
+const std::optional<InferredWeights>& Domain::inferred() const noexcept { return data_->inferred; }
 const std::vector<HalfSpace>& Domain::prior() const noexcept { return data_->prior; }
 std::size_t Domain::max_steps() const noexcept { return data_->max_steps; }
 std::size_t Domain::num_mdps() const noexcept {
@@ -126,6 +127,20 @@ StateIndex Domain::initial_state(MdpIndex m) const {
 const std::vector<StateIndex>& Domain::starts(MdpIndex m) const {
   return visit_member(
       *data_, m, "Domain::starts", [](const auto& member) -> const auto& { return member.starts; });
+}
+
+std::string Domain::state_key(MdpIndex m, StateIndex s) const {
+  check_mdp(*data_, m, "Domain::state_key");
+  const Mdp& mdp_of_state = mdp(m);
+  if (s.value() >= mdp_of_state.num_states() + mdp_of_state.num_terminals()) refuse_start({m, s}, "Domain::state_key");
+  if (data_->has_map()) return std::to_string(s.value());
+  return data_->model().keys[data_->model().members[m.value()].keys[s.value()]];
+}
+
+const std::vector<std::string>& Domain::model_keys() const noexcept {
+  static const std::vector<std::string> kNone;
+  const auto* model = std::get_if<ExplicitFamily>(&data_->family);
+  return model == nullptr ? kNone : model->keys;
 }
 
 std::vector<bool> Domain::present_things(MdpIndex m) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -53,6 +54,7 @@ struct Domain::Data {
   std::vector<Wording> wordings;
   std::vector<std::vector<FeatureThing>> feature_things{};  // per feature
   RewardWeights weights;
+  std::optional<InferredWeights> inferred{};
   std::vector<HalfSpace> prior;
   std::size_t max_steps = 0;
   std::variant<GridFamily, ExplicitFamily> family;

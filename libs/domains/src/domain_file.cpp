@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -17,6 +18,8 @@
 
 namespace kith {
 namespace {
+
+using detail::RewardOf;
 
 constexpr const char* kSchema = "kith.domain/1";
 
@@ -87,18 +90,18 @@ GridFamily grid_from(detail::FamilyMap family_map, std::vector<DomainMember> mem
 }
 
 std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limits, detail::NamedFiles& files,
-                                      detail::ModelReport& model_report) {
+                                      detail::ModelReport& model_report, RewardOf reward_of) {
   TomlReport& report = file.report();
   detail::FamilyMap family_map = detail::read_world(file, files, model_report);
   const detail::Dynamics dynamics = detail::read_dynamics(file, family_map);
-  detail::Reward reward = detail::read_reward(file, dynamics);
+  detail::Reward reward = detail::read_reward(file, dynamics, reward_of);
   file.finish();
   if (family_map.is_sound) check_has_goal(family_map, dynamics, report);
   if (report.has_errors() || model_report.has_errors()) return std::nullopt;
 
   std::vector<DomainMember> members = detail::build_family(family_map, dynamics, limits, report);
   if (report.has_errors()) return std::nullopt;
-  detail::check_optimum(family_map, dynamics, reward, members, report);
+  if (reward_of == RewardOf::kFile) detail::check_optimum(family_map, dynamics, reward, members, report);
   if (report.has_errors()) return std::nullopt;
   check_features(dynamics, members, report);
   Domain::Data data = data_from(dynamics, std::move(reward));
@@ -113,7 +116,7 @@ std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limi
 }
 
 std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& limits, detail::NamedFiles& files,
-                                          detail::ModelReport& model_report) {
+                                          detail::ModelReport& model_report, RewardOf reward_of) {
   TomlReport& report = file.report();
   detail::ModelReading model = detail::read_model(file, files, model_report);
   const auto failed = [&] { return report.has_errors() || model_report.has_errors(); };
@@ -123,7 +126,7 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
     file.finish();
     return std::nullopt;
   }
-  detail::Reward reward = detail::read_reward(file, model.dynamics, model.weights);
+  detail::Reward reward = detail::read_reward(file, model.dynamics, reward_of, model.weights);
   file.finish();
   if (failed()) return std::nullopt;
 
@@ -133,7 +136,7 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
   ExplicitFamily family = detail::build_explicit_family(std::move(model.model), data.feature_names.size(),
                                                         model.dynamics.discount, limits, model_report);
   if (failed()) return std::nullopt;
-  detail::check_model(family, data, model.dynamics, weights_place, report);
+  if (reward_of == RewardOf::kFile) detail::check_model(family, data, model.dynamics, weights_place, report);
   if (failed()) return std::nullopt;
   check_features(model.dynamics, family.members, report);
   if (model.drawing) family.drawing = detail::draw_model(*std::move(model.drawing), family, report);
@@ -141,8 +144,84 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
   return data;
 }
 
+// [inferred]: how well weights explain a robot, and the starts that they leave out.
+class InferredTable {
+ public:
+  void read(TomlReader& file) {
+    auto table = file.table("inferred", Presence::kOptional);
+    if (!table) return;
+    place_ = table->place();
+    InferredWeights read;
+    constexpr RealRange kShare{0.0, 1.0, true, false}, kSize{0.0};
+    read.share = table->real("share", Presence::kRequired, kShare).value_or(1.0);
+    read.loss = table->real("loss", Presence::kOptional, kSize).value_or(0.0);
+    read.margin = table->real("margin", Presence::kOptional, kSize).value_or(0.0);
+    if (const TomlArray* list = table->array("left_out", Presence::kOptional)) {
+      for (const TomlValue& element : *list) read_starts(element, file.report());
+    }
+    table->finish();
+    inferred_ = read;
+  }
+
+  void apply(Domain::Data& data, TomlReport& report) {
+    if (!inferred_) return;
+    std::visit([&](auto& family) { remove_starts(family.members, report); }, data.family);
+    inferred_->left_out = num_removed_;
+    data.inferred = inferred_;
+  }
+
+ private:
+  struct Starts {
+    std::vector<std::int64_t> numbers;  // the world, and then states of it
+    TomlPlace place;
+  };
+
+  void read_starts(const TomlValue& element, TomlReport& report) {
+    const TomlArray* numbers = read_array(element, "a world and its starts", report);
+    if (numbers == nullptr) return;
+    Starts starts{{}, element.place()};
+    for (const TomlValue& one : *numbers) {
+      if (const auto number = read_integer(one, "a number of 'left_out'", {0, 0xFFFFFFFF}, report))
+        starts.numbers.push_back(*number);
+    }
+    if (!starts.numbers.empty()) lists_.push_back(std::move(starts));
+  }
+
+  template <typename Member>
+  void remove_starts(std::vector<Member>& members, TomlReport& report) {
+    const std::string hint = "'kith infer' writes this table; run it again if the map or the model has changed";
+    for (const Starts& list : lists_) {
+      const auto family_map = static_cast<std::size_t>(list.numbers.front());
+      if (family_map >= members.size())
+        return report.error("E0318", list.place, "there is no world " + std::to_string(family_map), hint);
+      auto& starts = members[family_map].starts;
+      for (std::size_t i = 1; i < list.numbers.size(); ++i) {
+        const StateIndex start{static_cast<std::size_t>(list.numbers[i])};
+        const auto at = std::lower_bound(starts.begin(), starts.end(), start);
+        if (at == starts.end() || *at != start) {
+          return report.error(
+              "E0318", list.place,
+              "nothing can start in state " + std::to_string(start.value()) + " of world " + std::to_string(family_map),
+              hint);
+        }
+        starts.erase(at);
+        ++num_removed_;
+      }
+    }
+    const bool some =
+        std::any_of(members.begin(), members.end(), [](const Member& one) { return !one.starts.empty(); });
+    if (!some) report.infeasible("E0319", place_, "no start is left that the weights explain", hint);
+  }
+
+  TomlPlace place_;
+  std::optional<InferredWeights> inferred_;
+  std::vector<Starts> lists_;
+  std::size_t num_removed_ = 0;
+};
+
 std::optional<Domain> read_document(const TomlDocument& document, const DomainLimits& limits, const DomainFiles& files,
-                                    TomlReport& report, detail::ModelReport& model_report, DomainReading& reading) {
+                                    RewardOf reward_of, TomlReport& report, detail::ModelReport& model_report,
+                                    DomainReading& reading) {
   TomlReader file{document.root, {0, 1, 1, 1}, "the file", report};
   if (!check_schema(file)) return std::nullopt;
   const auto id = file.string("id", Presence::kRequired);
@@ -158,10 +237,18 @@ std::optional<Domain> read_document(const TomlDocument& document, const DomainLi
     return std::nullopt;
   }
   detail::NamedFiles named{files, report};
-  auto data = model == nullptr ? read_grid(file, limits, named, model_report)
-                               : read_explicit(file, limits, named, model_report);
+  InferredTable inferred;
+  if (reward_of == RewardOf::kFile) {
+    inferred.read(file);
+  } else {
+    file.know("inferred");
+  }
+  auto data = model == nullptr ? read_grid(file, limits, named, model_report, reward_of)
+                               : read_explicit(file, limits, named, model_report, reward_of);
   reading.files = named.take_read();
   if (!data || report.has_errors()) return std::nullopt;
+  inferred.apply(*data, report);
+  if (report.has_errors()) return std::nullopt;
   data->id = *id;
   data->title = title.value_or(*id);
   data->goal = goal.value_or("");
@@ -176,20 +263,33 @@ Domain domain_or_error(DomainReading reading) {
 
 }  // namespace
 
-DomainReading parse_domain(std::string_view text, const std::string& name, const DomainLimits& limits,
-                           const DomainFiles& files) {
+namespace {
+
+DomainReading parse(std::string_view text, const std::string& name, const DomainLimits& limits,
+                    const DomainFiles& files, RewardOf reward) {
   TomlParsing parsing = parse_toml(text, name);
   if (!parsing.document) return {std::nullopt, std::move(parsing.diagnostics), {}};
   TomlReport report{*parsing.document};
   detail::ModelReport model_report;
   DomainReading reading;
-  reading.domain = read_document(*parsing.document, limits, files, report, model_report, reading);
+  reading.domain = read_document(*parsing.document, limits, files, reward, report, model_report, reading);
   reading.diagnostics = report.diagnostics();
   for (Diagnostic diagnostic : model_report.diagnostics()) {
     if (diagnostic.file.empty()) diagnostic.file = name;
     reading.diagnostics.push_back(std::move(diagnostic));
   }
   return reading;
+}
+
+}  // namespace
+
+DomainReading parse_domain(std::string_view text, const std::string& name, const DomainLimits& limits,
+                           const DomainFiles& files) {
+  return parse(text, name, limits, files, RewardOf::kFile);
+}
+
+DomainReading parse_unweighed_domain(std::string_view text, const std::string& name, const DomainFiles& files) {
+  return parse(text, name, {}, files, RewardOf::kNobody);
 }
 
 DomainReading read_domain(const std::filesystem::path& path) {

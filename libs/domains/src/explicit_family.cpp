@@ -376,9 +376,11 @@ ExplicitFamily build_explicit_family(RawModel&& model, std::size_t num_features,
   for (RawMdp& raw : model.mdps) {
     auto member = MemberBuilder{model, raw, keys, num_features, discount, report}.build();
     if (member) family.members.push_back(*std::move(member));
+    for (const RawState& one : raw.states) (void)keys.number_of(one.key);
     raw = {};  // as much memory as the MDP takes
     if (report.is_full()) break;
   }
+  family.keys = keys.all();
   return family;
 }
 

@@ -26,6 +26,7 @@ struct ExplicitMember {
 // MDPs that were given state by state.
 struct ExplicitFamily {
   std::vector<std::string> variables;  // integer variables that states have
+  std::vector<std::string> keys;       // of all states, also of those that are left out
   std::vector<ExplicitMember> members;
   std::optional<ModelDrawing> drawing;
 };

@@ -19,8 +19,12 @@ class RewardReader {
   RewardReader(TomlReader& file, const Dynamics& dynamics, const std::optional<std::vector<double>>& given)
       : file_{file}, report_{file.report()}, dynamics_{dynamics}, given_{given}, names_{dynamics.feature_names()} {}
 
-  Reward read() {
-    read_weights();
+  Reward read(RewardOf reward_of) {
+    if (reward_of == RewardOf::kFile) {
+      read_weights();
+    } else {
+      leave_open();
+    }
     read_prior();
     read_words();
     return std::move(reward_);
@@ -41,6 +45,16 @@ class RewardReader {
       reward_.weights.norm = WeightNorm::kL1;
     }
     table->finish();
+  }
+
+  // The weights are yet to be inferred.
+  void leave_open() {
+    file_.know("reward");
+    reward_.weights_place = dynamics_.features.empty() ? file_.place() : dynamics_.features.front().place;
+    if (!given_) return;
+    report_.error("E0263", reward_.weights_place,
+                  "the rewards of this model say what its features are worth, so there is nothing to infer",
+                  "give every outcome a vector of features in place of its reward, and declare each as [[feature]]");
   }
 
   void take_given() {
@@ -258,8 +272,9 @@ class RewardReader {
 
 }  // namespace
 
-Reward read_reward(TomlReader& file, const Dynamics& dynamics, const std::optional<std::vector<double>>& given) {
-  return RewardReader{file, dynamics, given}.read();
+Reward read_reward(TomlReader& file, const Dynamics& dynamics, RewardOf reward_of,
+                   const std::optional<std::vector<double>>& given) {
+  return RewardReader{file, dynamics, given}.read(reward_of);
 }
 
 }  // namespace kith::detail

@@ -10,6 +10,9 @@
 
 namespace kith::detail {
 
+// Whose reward a domain has: its weights are read, or they are yet to be inferred.
+enum class RewardOf { kFile, kNobody };
+
 // What the file says about worth: [reward], [prior] and [words].
 struct Reward {
   RewardWeights weights;
@@ -19,7 +22,7 @@ struct Reward {
 };
 
 // `given`: the weights, shape [d], where they follow from a model and the file has none.
-[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics,
+[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics, RewardOf reward_of,
                                  const std::optional<std::vector<double>>& given = std::nullopt);
 
 }  // namespace kith::detail

@@ -1,9 +1,11 @@
 // Edits domain files as text, so that what people wrote in them stays.
 #include "kith/domains/variation.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include "kith/domains/domain_file.hpp"
+#include "kith/toml/document.hpp"
 
 namespace kith {
 namespace {
@@ -112,7 +114,55 @@ void remove_options(std::string& text) {
   }
 }
 
+// Where the header of a table begins at or after `from`: the first on its line, and inside of no value.
+std::size_t find_header(std::string_view text, const Scanner& scanner, std::string_view header, std::size_t from) {
+  int depth = 0;
+  bool is_first = true;
+  for (auto at = from; at < text.size(); ++at) {
+    const char c = text[at];
+    if (scanner.is_code(at) && c == '[' && is_first && depth == 0 && text.substr(at).starts_with(header)) return at;
+    if (scanner.is_code(at)) depth += (c == '[' || c == '{' ? 1 : 0) - (c == ']' || c == '}' ? 1 : 0);
+    is_first = c == '\n' || (is_first && (c == ' ' || c == '\t'));
+  }
+  return kNowhere;
+}
+
+// Removes [name] up to the next table.
+void remove_table(std::string& text, const std::string& name) {
+  const Scanner scanner{text};
+  const std::string header = "[" + name + "]";
+  const auto begin = find_header(text, scanner, header, 0);
+  if (begin == kNowhere) return;
+  const auto next = find_header(text, scanner, "[", std::min(text.find('\n', begin), text.size()));
+  text.erase(begin, next == kNowhere ? kNowhere : next - begin);
+}
+
 }  // namespace
+
+std::string with_inferred_weights(std::string_view text, const std::vector<std::string>& features,
+                                  const std::vector<double>& weights, const InferredWeights& inferred,
+                                  const std::vector<StartId>& left_out) {
+  std::string result{text};
+  remove_table(result, "reward");
+  remove_table(result, "inferred");
+  while (!result.empty() && result.back() == '\n') result.pop_back();
+
+  std::string values;
+  for (std::size_t k = 0; k < features.size(); ++k)
+    values += (k == 0 ? "" : ", ") + quoted(features[k]) + " = " + to_toml(TomlValue{weights[k]});
+  std::string lists;
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    if (i == 0 || left_out[i].mdp != left_out[i - 1].mdp)
+      lists += (i == 0 ? "\n  [" : "],\n  [") + std::to_string(left_out[i].mdp.value());
+    lists += ", " + std::to_string(left_out[i].start.value());
+  }
+  return result + "\n\n[reward]\nweights = { " + values +
+         " }\n\n[inferred]   # how well these weights explain the robot; 'kith infer' wrote both tables\nshare = " +
+         to_toml(TomlValue{inferred.share}) + "\nloss = " + to_toml(TomlValue{inferred.loss}) +
+         "\nmargin = " + to_toml(TomlValue{inferred.margin}) +
+         (lists.empty() ? "" : "\nleft_out = [  # worlds, each with the starts that are not taught" + lists + "],\n]") +
+         "\n";
+}
 
 std::optional<std::string> with_one_map(std::string_view text, const std::string& id,
                                         const std::vector<std::string>& rows) {

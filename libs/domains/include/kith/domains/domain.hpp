@@ -57,6 +57,15 @@ struct FeatureThing {
   friend bool operator==(const FeatureThing&, const FeatureThing&) = default;
 };
 
+/// What weights say of a robot that nobody gave any: they were inferred from what it does (`kith infer`).
+struct InferredWeights {
+  double share = 1.0;        ///< Of what the robot does, the share that is best under the weights, in (0, 1].
+  double loss = 0.0;         ///< What its actions give away under them, mean over states, at length 1; >= 0.
+  double margin = 0.0;       ///< Sine of the angle to the nearest weights that explain less, >= 0.
+  std::size_t left_out = 0;  ///< Starts that are not used, because the robot's way from there is not explained.
+  friend bool operator==(const InferredWeights&, const InferredWeights&) = default;
+};
+
 /// Things that are there or not together: one bit of an MDP's index.
 struct OptionalGroup {
   std::string name;         ///< What it is: "rubble", "charger".
@@ -94,7 +103,10 @@ class Domain {
   /// What has to be there for feature k to count, by its condition (`when`), in the order in which that names it; not
   /// what must not be there. Empty without a map.
   [[nodiscard]] const std::vector<FeatureThing>& feature_things(std::size_t k) const;
+  /// Empty vectors of a domain that was read without (RewardOf::kNobody).
   [[nodiscard]] const RewardWeights& weights() const noexcept;
+  /// Where the weights come from if nobody wrote them down; nothing otherwise.
+  [[nodiscard]] const std::optional<InferredWeights>& inferred() const noexcept;
   /// What every learner is assumed to know; all hold at the weights. Empty for a single feature.
   [[nodiscard]] const std::vector<HalfSpace>& prior() const noexcept;
   [[nodiscard]] std::size_t max_steps() const noexcept;
@@ -105,8 +117,8 @@ class Domain {
   /// Feature counts, and expectations of them, are kept as integers in units of 1 / count_scale(): 1 if
   /// is_exact(), else 2^24 where features stay below 2^8, and a smaller power of two where they are larger.
   [[nodiscard]] std::int64_t count_scale() const noexcept;
-  /// The states of MDP m in which demonstrations and tests may start, ascending, the initial one among them: all that
-  /// are not terminal, unless the file asks for fewer.
+  /// The states of MDP m in which demonstrations and tests may start, ascending: all that are not terminal, unless the
+  /// file asks for fewer. The initial one is among them, unless it is one of those that inferred weights leave out.
   [[nodiscard]] const std::vector<StateIndex>& starts(MdpIndex m) const;
   /// Number of (MDP, start) pairs.
   [[nodiscard]] std::size_t num_starts() const noexcept;
@@ -129,6 +141,12 @@ class Domain {
   /// left, as in all messages. Without a map the name that the model gives it. @throws std::invalid_argument if there
   /// is no such state.
   [[nodiscard]] std::string state_name(MdpIndex m, StateIndex s) const;
+
+  /// What files call a state: on a map its number, as in tables; else the key that the model gives it, which several
+  /// MDPs may share. @throws std::invalid_argument if there is no such state.
+  [[nodiscard]] std::string state_key(MdpIndex m, StateIndex s) const;
+  /// The keys of all states of a model, also of those that are left out; empty on a map.
+  [[nodiscard]] const std::vector<std::string>& model_keys() const noexcept;
 
   /// The map, if the MDPs are gridworlds on one; nothing for an explicit model that was given state by state. It refers
   /// to the domain, which has to stay (it may be moved).

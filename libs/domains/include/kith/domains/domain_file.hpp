@@ -32,6 +32,11 @@ struct DomainLimits {
 [[nodiscard]] DomainReading parse_domain(std::string_view text, const std::string& name,
                                          const DomainLimits& limits = {}, const DomainFiles& files = {});
 
+/// The same for a robot whose weights are yet to be inferred: [reward] and [inferred] are not read, and
+/// Domain::weights() is empty, so that nothing can be planned for it.
+[[nodiscard]] DomainReading parse_unweighed_domain(std::string_view text, const std::string& name,
+                                                   const DomainFiles& files = {});
+
 /// Reads the file, and those that it names, and parses them. @throws kith::Error (kIo) if it cannot be read.
 [[nodiscard]] DomainReading read_domain(const std::filesystem::path& path);
 

@@ -19,4 +19,12 @@ namespace kith {
 [[nodiscard]] std::optional<std::string> with_one_map(std::string_view text, const std::string& id,
                                                       const std::vector<std::string>& rows);
 
+/// The domain file with weights that were inferred, in place of its [reward] and [inferred]; the rest stays as it is.
+/// The text need not be a sound domain file, but must be TOML.
+/// @param weights   shape [d], by feature name in the order of `features`.
+/// @param left_out  starts that the weights do not explain, ascending.
+[[nodiscard]] std::string with_inferred_weights(std::string_view text, const std::vector<std::string>& features,
+                                                const std::vector<double>& weights, const InferredWeights& inferred,
+                                                const std::vector<StartId>& left_out);
+
 }  // namespace kith
