@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "kith/domains/domain.hpp"
+#include "kith/domains/policy_file.hpp"
+#include "kith/geometry/cone.hpp"
+
+namespace kith {
+
+/// A state in which a robot does something else than what is best under some weights.
+struct UnexplainedState {
+  StartId state;
+  std::optional<ActionIndex> does;  ///< What it does most often; nothing if that is no action of the MDP.
+  ActionIndex best;                 ///< What would be best.
+  double loss = 0.0;                ///< What the former gives away, with weights at length 1; 0 without it.
+};
+
+/// What the robot does in a few states that no weights explain together: each of them prefers something, and the
+/// preferences contradict each other. A further feature would have to tell these states apart.
+struct Clash {
+  std::vector<StartId> states;  ///< The first is unexplained. Those of half-spaces that everybody knows are left out.
+  std::vector<HalfSpace> half_spaces;  ///< What the robot would have to prefer; that of the first state first.
+};
+
+/// A facet of the region of weights, and how many states show it. A facet that only few states show rests on these.
+struct RegionSide {
+  HalfSpace half_space;
+  std::size_t support = 0;  ///< 0: known to everybody.
+};
+
+/// The reward weights that explain what a robot does.
+struct Inference {
+  /// Weights, shape [d], of about length 1 and with few digits, strictly inside the region.
+  std::vector<double> weights;
+  /// If the policy is optimal for some weights: all of these, within the prior. Otherwise those under which what is
+  /// best under `weights` stays so.
+  Cone region;
+  double margin = 0.0;       ///< Sine of the angle from the weights to the nearest facet; 1 without facets.
+  bool is_optimal = false;   ///< Whether the policy is optimal under the weights wherever it was seen.
+  double share = 0.0;        ///< Of what the robot does, what is best under the weights: mean over states seen.
+  double loss = 0.0;         ///< What its actions give away, mean over states seen, weights at length 1; >= 0.
+  std::size_t num_seen = 0;  ///< States.
+  std::vector<UnexplainedState> unexplained;  ///< Where what it does most often is not best; by MDP and state.
+  std::vector<Clash> clashes;                 ///< Of the unexplained states that lose most, at most three.
+  std::vector<RegionSide> sides;              ///< Of the region; those that rest on the fewest states first.
+  std::vector<StartId> left_out;  ///< Starts from which the robot, or what is best, may meet a state that is not
+                                  ///< explained or not seen; ascending.
+};
+
+/// Reward weights for a policy of which nobody wrote any down; those of the domain do not matter.
+///
+/// A policy that is known everywhere is optimal exactly under the weights of its behaviour equivalence class (Eq. 1 of
+/// [jayaraman2024], with all one-step deviations from it), within the prior. If that has an interior, these are its
+/// weights. If not, weights are sought that explain most: from many that cover the prior, those that explain most
+/// states are improved by adding what states demand, from the one that is satisfied best to the one that is satisfied
+/// least, as long as some weights are left, until no more states are explained. A state is explained if what the robot
+/// does there is as good as any action under the weights (to 1e-9), given that everything after it is best.
+///
+/// @throws std::invalid_argument unless the policy has the domain's shape.
+/// @throws kith::Error (kInfeasible): E0341 if the best weights explain less than half of what the robot does, or no
+/// more than they would of one that acts at random (which is sure to 95 %, by [hoeffding1963]); E0342 if
+/// all weights explain everything; E0343 if no start is left; E0344 if no weights have a finite optimum.
+[[nodiscard]] Inference infer_weights(const Domain& domain, const ObservedPolicy& policy);
+
+}  // namespace kith
