@@ -491,26 +491,34 @@ class PolicyInference {
     }
   }
 
-  // From the states that are not explained or not seen back to all that may lead there.
+  // From the states that are not explained or not seen back to all from which the robot, or what is best, most likely
+  // comes there: these are the paths that are shown.
   [[nodiscard]] std::vector<StartId> left_out(const Look& look) const {
     std::vector<StartId> result;
     for (std::size_t m = 0; m < domain_.num_mdps(); ++m) {
-      std::vector<bool> is_out(likeliest_[m].size(), false);
-      std::vector<StateIndex> queue;
-      for (StateIndex s{0}; s.value() < is_out.size(); ++s) {
-        if (is_explained(look, m, s.value())) continue;
-        is_out[s.value()] = true;
+      const auto& best = look.plans[m].choice;
+      auto own = likeliest_[m];
+      for (std::size_t s = 0; s < own.size(); ++s) own[s] = own[s] == kNoChoice ? best[s] : own[s];
+      std::vector<std::vector<std::uint32_t>> into(own.size());
+      for (const auto& next : {likeliest_next(mdp(m), own), likeliest_next(mdp(m), best)}) {
+        for (std::uint32_t s = 0; s < next.size(); ++s) {
+          if (next[s] < into.size()) into[next[s]].push_back(s);
+        }
+      }
+      std::vector<bool> is_out(own.size(), false);
+      std::vector<std::uint32_t> queue;
+      for (std::uint32_t s = 0; s < is_out.size(); ++s) {
+        if (is_explained(look, m, s)) continue;
+        is_out[s] = true;
         queue.push_back(s);
       }
       while (!queue.empty()) {
-        const StateIndex s = queue.back();
+        const auto s = queue.back();
         queue.pop_back();
-        for (const Arrival& arrival : mdp(m).arrivals(s)) {
-          const auto from = arrival.from.value();
-          if (is_out[from] || (arrival.choice != likeliest_[m][from] && arrival.choice != look.plans[m].choice[from]))
-            continue;
+        for (const std::uint32_t from : into[s]) {
+          if (is_out[from]) continue;
           is_out[from] = true;
-          queue.push_back(arrival.from);
+          queue.push_back(from);
         }
       }
       for (const StateIndex start : domain_.starts(MdpIndex{m})) {

@@ -46,8 +46,9 @@ struct Inference {
   std::vector<UnexplainedState> unexplained;  ///< Where what it does most often is not best; by MDP and state.
   std::vector<Clash> clashes;                 ///< Of the unexplained states that lose most, at most three.
   std::vector<RegionSide> sides;              ///< Of the region; those that rest on the fewest states first.
-  std::vector<StartId> left_out;  ///< Starts from which the robot, or what is best, may meet a state that is not
-                                  ///< explained or not seen; ascending.
+  /// Starts from which the robot, or what is best, most likely meets a state that is not explained or not seen;
+  /// ascending. Where chance has a part, other paths than the likeliest one may still meet such a state.
+  std::vector<StartId> left_out;
 };
 
 /// Reward weights for a policy of which nobody wrote any down; those of the domain do not matter.
