@@ -252,6 +252,7 @@ Commands all_commands() {
   add_init(commands);
   add_validate(commands);
   add_inspect(commands);
+  add_infer(commands);
   add_curriculum(commands);
   add_lesson(commands);
   add_ask(commands);

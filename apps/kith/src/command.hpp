@@ -226,6 +226,7 @@ void add_explain(Commands& commands);
 void add_export(Commands& commands);
 void add_find(Commands& commands);
 void add_fit(Commands& commands);
+void add_infer(Commands& commands);
 void add_init(Commands& commands);
 void add_inspect(Commands& commands);
 void add_merge(Commands& commands);

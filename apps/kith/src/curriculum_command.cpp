@@ -34,6 +34,7 @@ class CurriculumText {
   std::string text() {
     out_ = console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n" +
            legend(domain_, 0);
+    if (const auto explained = explained_in_words(domain_); !explained.empty()) line("Note: " + explained + ".", 0);
     for (std::size_t i = 0; i < curriculum_.components.size(); ++i) component(i);
     for (const auto& one : curriculum_.skipped) out_ += "\nNot taught: " + one.name + "; " + one.why + ".\n";
     return out_;

@@ -136,6 +136,7 @@ class Inspection {
                  fmt::format("{:.4f}", domain_.weights().return_of(once))});
     }
     auto text = heading_text("Reward") + table.text(console_);
+    if (const auto explained = explained_in_words(domain_); !explained.empty()) text += "  " + explained + "\n";
     for (const auto& half_space : domain_.prior()) text += "  known to all: " + described(domain_, half_space) + "\n";
     return text;
   }

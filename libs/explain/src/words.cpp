@@ -218,6 +218,17 @@ std::string normal_text(const Domain& domain, const HalfSpace& half_space) {
   return text + ")";
 }
 
+std::string explained_in_words(const Domain& domain) {
+  const auto& inferred = domain.inferred();
+  if (!inferred) return "";
+  const auto percent = static_cast<int>(std::floor(100.0 * inferred->share + 1e-9));
+  const auto left_out = inferred->left_out;
+  return "the weights explain " + std::to_string(percent) + " % of what the robot does, from which they were inferred" +
+         (left_out == 0
+              ? ""
+              : "; " + std::to_string(left_out) + (left_out == 1 ? " start is" : " starts are") + " left out");
+}
+
 std::string described(const Domain& domain, const HalfSpace& half_space) {
   const auto sentence = in_words(domain, half_space);
   return normal_text(domain, half_space) + (sentence.empty() ? "" : ": " + sentence);

@@ -63,6 +63,12 @@ Json inspection_json(const Domain& domain) {
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     if (!domain.world_name(m).empty()) document["mdp_names"][std::to_string(m.value())] = domain.world_name(m);
   }
+  if (const auto& inferred = domain.inferred()) {
+    document["inferred"] = {{"share", inferred->share},
+                            {"loss", inferred->loss},
+                            {"margin", inferred->margin},
+                            {"left_out", inferred->left_out}};
+  }
   if (const auto map = domain.map()) document["maps"] = maps_to_json(*map, domain.num_mdps());
   return document;
 }

@@ -43,6 +43,7 @@ class HeaderWriter {
       line(fmt::format("  {:<10} {:>6} {:>12.4f} for {}", domain_.feature_names()[k], domain_.weights().raw[k],
                        domain_.weights().return_of(once), domain_.feature_words(k)));
     }
+    if (const auto explained = explained_in_words(domain_); !explained.empty()) line("Note: " + explained + ".");
     line("What determines its policy, and is to be learned:");
     for (const auto& half_space : atlas_.policy_bec_half_spaces()) line("  " + described(domain_, half_space));
     for (const auto& half_space : domain_.prior())

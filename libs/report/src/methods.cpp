@@ -7,6 +7,7 @@
 #include "bibliography.hpp"
 #include "built_in.hpp"
 #include "kith/analysis/analysis.hpp"
+#include "kith/explain/words.hpp"
 #include "parameters.hpp"
 
 namespace kith::detail {
@@ -133,6 +134,8 @@ class Paragraph {
         " of the domain " + run_.domain.id() + ", which has " + counted(run_.domain.num_mdps(), "world") + " with " +
         std::to_string(run_.domain.num_starts()) +
         " start states; lessons showed the robot's paths from some of them.");
+    if (const auto explained = explained_in_words(run_.domain); !explained.empty())
+      say("Nobody wrote the reward down: " + explained + ".");
   }
 
   [[nodiscard]] bool is_used(const LearnerType& type) const {

@@ -49,6 +49,10 @@ namespace kith {
                                    std::span<const std::size_t> risks);
 /// The normal and the words: "(-1,0,2): crossing rubble costs more than 2 steps"; the normal alone if there are none.
 [[nodiscard]] std::string described(const Domain& domain, const HalfSpace& half_space);
+/// How well inferred weights explain the robot (Domain::inferred()): "the weights explain 96 % of what the robot does,
+/// from which they were inferred; 20 starts are left out". Percentages are rounded down. Empty where somebody gave the
+/// weights.
+[[nodiscard]] std::string explained_in_words(const Domain& domain);
 /// "(-1,0,2)", without entries beyond the domain's features.
 [[nodiscard]] std::string normal_text(const Domain& domain, const HalfSpace& half_space);
 /// A feature n times, as a noun: "a step", "2 steps", "crossing rubble twice".
