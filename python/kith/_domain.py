@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union, overload
 
 from . import _core
+from ._errors import Error
 from ._records import Component, Path, Start, World
 
 if TYPE_CHECKING:
     from ._infer import Explanation
+    from ._study import Report
 
 Features = Union[Mapping[str, Callable[[int, int, int], float]], Any]
 """Functions of (state, action, next state) by name, or an array; see Domain.from_gymnasium()."""
@@ -78,21 +80,17 @@ class Domain:
         return cls._of(domain_from_table(env, features, weights, **options))
 
     @classmethod
-    def from_policy(cls, transitions: Any, features: Any, policy: Any, *, discount: float = 1.0, prior: Any = None,
-                    terminal: Optional[Sequence[int]] = None, **options: Any) -> Domain:
+    def from_policy(cls, transitions: Any, features: Any, policy: Any, **options: Any) -> Domain:
         """A robot whose reward nobody wrote down: weights under which its policy is optimal or, if there are none, that
-        explain most of it. Only starts are taught that they explain; see kith.explain_policy(), and `explanation`.
+        explain most of it. Only starts are taught from which they explain all; see kith.explain_policy(), and
+        `explanation`.
 
         policy: an action per state, shape [S], or probabilities, shape [S, A]; the others as of from_arrays().
         """
-        from ._infer import explain_policy
-        from ._models import domain_from_arrays, explained_starts
+        from ._infer import infer
 
-        explanation = explain_policy(transitions, features, policy, discount=discount, terminal=terminal, prior=prior)
-        if explanation.unexplained:
-            options["starts"] = explained_starts(transitions, policy, terminal, explanation.unexplained)
-        domain = cls._of(domain_from_arrays(transitions, features, explanation.weights, discount=discount, prior=prior,
-                                            terminal=terminal, **options))
+        native, explanation = infer(transitions, features, policy, **options)
+        domain = cls._of(native)
         domain.explanation = explanation
         return domain
 
@@ -177,6 +175,12 @@ class Domain:
         """What everybody knows beforehand."""
         return self._native.prior
 
+    @overload
+    def path(self, start: Start) -> Path: ...
+
+    @overload
+    def path(self, start: Start, weights: Any) -> Optional[Path]: ...
+
     def path(self, start: Start, weights: Any = None) -> Optional[Path]:
         """What the robot does from a start or, with weights of shape [d], somebody who has these.
 
@@ -193,6 +197,24 @@ class Domain:
         """All that is known of it, as `kith inspect --json` says it."""
         document: dict[str, Any] = json.loads(self._native.described(demonstrations))
         return document
+
+    def lesson(self, path: Union[str, os.PathLike[str], None] = None, *, program: str = "kith") -> Report:
+        """A lesson in one file that teaches whoever opens it, as `kith lesson` writes it; a notebook shows it.
+
+        path: where it is written; without, nowhere that lasts. program: a kith with the engine of lessons, built with
+        `./run.sh --lesson`; kith.Error if it has none, FileNotFoundError if there is no such program.
+        """
+        import subprocess
+        import tempfile
+
+        from ._study import Report
+
+        with tempfile.TemporaryDirectory() as folder:
+            place = FilePath(path) if path is not None else FilePath(folder) / "lesson.html"
+            done = subprocess.run([program, "lesson", str(self.save(folder)), "-o", str(place)], capture_output=True, text=True)
+            if done.returncode != 0:
+                raise Error(done.stderr.strip(), "infeasible" if done.returncode == 4 else "usage")
+            return Report(place, place.read_text(encoding="utf-8"))
 
     def board(self, start: Start, path: bool = True) -> str:
         """A picture of the start, with the robot's path, as SVG; empty without a map."""

@@ -51,10 +51,12 @@ def _tidy(number: float) -> float:
     return int(number) if number == int(number) and abs(number) < 2**53 else number
 
 
-def _domain(table: list[Any], features: Sequence[str], weights: Optional[Mapping[str, float]], actions: Sequence[str],
+def _file(table: list[Any], features: Sequence[str], weights: Optional[Mapping[str, float]], actions: Sequence[str],
             *, discount: float = 1.0, state_names: Optional[Sequence[str]] = None, initial: Optional[int] = None,
             starts: Optional[Sequence[int]] = None, prior: Any = None, words: Optional[Mapping[str, Any]] = None,
-            id: str = "robot", title: str = "", max_steps: Optional[int] = None) -> _core.Domain:
+            id: str = "robot", title: str = "", max_steps: Optional[int] = None) -> tuple[str, str, dict[str, str]]:
+    """Text and name of a domain file, and the files that it names; without weights where there are features, nothing
+    says what they are worth yet."""
     model: dict[str, Any] = {"P": table, "actions": list(actions)}
     if state_names is not None:
         model["states"] = _names(state_names, len(table), "state")
@@ -68,15 +70,16 @@ def _domain(table: list[Any], features: Sequence[str], weights: Optional[Mapping
     file: dict[str, Any] = {
         "schema": "kith.domain/1", "id": id, "title": title or f"A robot of {len(table)} states", "mdp": mdp,
         "model": {"format": "gym-json", "mdp": [{"file": FILE}]}}
-    if weights is not None:
+    if features:
         file["feature"] = [{"name": name} for name in features]
+    if weights is not None:
         file["reward"] = {"weights": {name: _tidy(one) for name, one in weights.items()}}
     if prior is not None:
         rows = [[_tidy(float(x)) for x in row] for row in _numbers(prior, "prior").reshape(-1, len(features))]
         file["prior"] = {"halfspaces": [{name: x for name, x in zip(features, row) if x} for row in rows]}
     if words is not None:
         file["words"] = dict(words)
-    return _core.Domain.from_text(toml_text(file), id, {FILE: json.dumps(model)})
+    return toml_text(file), id, {FILE: json.dumps(model)}
 
 
 def _feature_array(features: Any, shape: tuple[int, int], what: str) -> Any:
@@ -90,9 +93,10 @@ def _feature_array(features: Any, shape: tuple[int, int], what: str) -> Any:
     return array
 
 
-def domain_from_arrays(transitions: Any, features: Any, weights: Any, *, terminal: Optional[Sequence[int]] = None,
-                       feature_names: Optional[Sequence[str]] = None, action_names: Optional[Sequence[str]] = None,
-                       **options: Any) -> _core.Domain:
+def file_from_arrays(transitions: Any, features: Any, weights: Any, *, terminal: Optional[Sequence[int]] = None,
+                     feature_names: Optional[Sequence[str]] = None, action_names: Optional[Sequence[str]] = None,
+                     **options: Any) -> tuple[str, str, dict[str, str]]:
+    """As of Domain.from_arrays(); weights may be None."""
     import numpy as np
 
     chance = _numbers(transitions, "transitions")
@@ -122,24 +126,15 @@ def domain_from_arrays(transitions: Any, features: Any, weights: Any, *, termina
                 outcomes.append([float(chance[s, a, t]), t, [float(x) for x in row], bool(ends[t])])
             rows.append(outcomes)
         table.append(rows)
-    return _domain(table, names, _weights(weights, names), _names(action_names, actions, "action"), **options)
+    given = None if weights is None else _weights(weights, names)
+    return _file(table, names, given, _names(action_names, actions, "action"), **options)
 
 
-def explained_starts(transitions: Any, policy: Any, terminal: Optional[Sequence[int]], unexplained: Sequence[int]) -> list[int]:
-    """States from which the policy meets none of the unexplained ones."""
-    import numpy as np
-
-    chance, choice = _numbers(transitions, "transitions"), _numbers(policy, "policy")
-    takes = np.eye(chance.shape[1])[choice.astype(int)] if choice.ndim == 1 else choice
-    leads = np.einsum("sa,sat->st", takes, chance) > 0
-    meets = np.isin(np.arange(len(chance)), list(unexplained))
-    while True:
-        more = meets | (leads & meets).any(axis=1)
-        if (more == meets).all():
-            break
-        meets = more
-    ends = [s for s in range(len(chance)) if leads[s, s] and leads[s].sum() == 1] if terminal is None else [int(s) for s in terminal]
-    return [s for s in range(len(chance)) if not meets[s] and s not in ends]
+def domain_from_arrays(transitions: Any, features: Any, weights: Any, **options: Any) -> _core.Domain:
+    if weights is None:
+        raise ValueError("features need weights")
+    text, name, files = file_from_arrays(transitions, features, weights, **options)
+    return _core.Domain.from_text(text, name, files)
 
 
 def _gym_table(env: Any) -> Any:
@@ -182,7 +177,8 @@ def domain_from_table(env: Any, features: Any, weights: Any, *, feature_names: O
         raise ValueError("features need weights")
     given = None if features is None else _weights(weights, names)
     options.setdefault("id", _name_of(env))
-    return _domain(table, names, given, _names(action_names, actions, "action"), **options)
+    text, name, files = _file(table, names, given, _names(action_names, actions, "action"), **options)
+    return _core.Domain.from_text(text, name, files)
 
 
 def _name_of(env: Any) -> str:

@@ -16,6 +16,7 @@ void bind_arrays(py::module_& module);
 void bind_geometry(py::module_& module);
 void bind_belief(py::module_& module);
 void bind_domain(py::module_& module);
+void bind_inference(py::module_& module);
 void bind_own_kinds(py::module_& module);
 void bind_session(py::module_& module);
 void bind_teach(py::module_& module);

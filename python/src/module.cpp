@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
   bind_geometry(module);
   bind_belief(module);
   bind_domain(module);
+  bind_inference(module);
   bind_own_kinds(module);
   bind_session(module);
   bind_teach(module);

@@ -6,7 +6,7 @@ import unittest
 
 import kith
 import numpy as np
-from support import LAKE_ACTIONS, SOURCE, lake, lake_domain
+from support import LAKE_ACTIONS, PROGRAM, SOURCE, lake, lake_domain
 
 
 def corridor(chance=1.0):
@@ -149,6 +149,18 @@ class Gymnasium(unittest.TestCase):
         told = kith.teach(robot, group="NP", strategy="joint", seed=3)
         before = kith.ParticleBelief(robot.prior, 2000).mass_in(robot.region)
         self.assertGreater(told.knowledge, 2 * before)
+
+    @unittest.skipUnless(PROGRAM, "there is no program")
+    def test_its_lesson_is_a_page_where_the_program_has_the_engine(self):
+        robot = kith.Domain("icy-crossing")
+        try:
+            lesson = robot.lesson(program=PROGRAM)
+        except kith.Error as error:
+            self.assertIn("engine", str(error))
+        else:
+            self.assertIn("<iframe", lesson._repr_html_())
+        with self.assertRaises(FileNotFoundError):
+            robot.lesson(program="/nowhere/kith")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """The module as a whole: types, import, installation, and calls that make no sense."""
 
+import json
 import os
 import pathlib
 import random
@@ -53,6 +54,19 @@ class Types(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             found = subprocess.run(["mypy", "--strict", "--ignore-missing-imports", "--cache-dir", folder, str(place)],
                                    cwd=folder, capture_output=True, text=True)
+        self.assertEqual(found.returncode, 0, found.stdout[-4000:])
+
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+    def test_the_notebooks_are_strict(self):
+        place = pathlib.Path(kith.__file__).parents[1]
+        with tempfile.TemporaryDirectory() as folder:
+            for notebook in (SOURCE / "examples" / "notebooks").glob("*.ipynb"):
+                cells = json.loads(notebook.read_text())["cells"]
+                code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+                (pathlib.Path(folder) / f"{notebook.stem}.py").write_text("\n".join(code) + "\n")
+            found = subprocess.run(["mypy", "--strict", "--ignore-missing-imports", "--cache-dir", f"{folder}/cache", folder],
+                                   cwd=folder, capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(place)})
         self.assertEqual(found.returncode, 0, found.stdout[-4000:])
 
 
