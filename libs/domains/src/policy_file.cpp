@@ -8,8 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "json_tree.hpp"
 #include "kith/core/error.hpp"
+#include "kith/models/json_tree.hpp"
 #include "kith/models/model_text.hpp"
 #include "kith/table/csv_reader.hpp"
 #include "kith/toml/reader.hpp"

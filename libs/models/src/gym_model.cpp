@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "json_tree.hpp"
+#include "kith/models/json_tree.hpp"
 #include "kith/models/model_formats.hpp"
 
 namespace kith::detail {

@@ -1,4 +1,4 @@
-#include "json_tree.hpp"
+#include "kith/models/json_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
