@@ -14,7 +14,7 @@ namespace {
 // What a state is called in the arrays that a model of one world was made of.
 int number_of(const Domain& domain, StartId id) { return std::stoi(domain.state_key(id.mdp, id.start)); }
 
-py::dict to_python(const Domain& domain, const Inference& inference) {
+py::dict to_python(const Domain& domain, const WeightInference& inference) {
   py::list unexplained, sides, clashes;
   for (const auto& one : inference.unexplained) unexplained.append(number_of(domain, one.state));
   for (const auto& side : inference.sides)

@@ -37,7 +37,7 @@ constexpr std::size_t kShownStates = 10;  // without --all
 
 // A domain with the weights that were found, as text and as what it means.
 struct Inferred {
-  Inference inference;
+  WeightInference inference;
   std::string text;
   Domain domain;
   std::vector<DomainFile> files;
@@ -141,7 +141,7 @@ class InferenceText {
   }
 
   const Domain& domain_;
-  const Inference& inference_;
+  const WeightInference& inference_;
   bool all_;
   const Console& console_;
   std::string out_;

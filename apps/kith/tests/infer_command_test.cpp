@@ -7,7 +7,7 @@ namespace kith::testing {
 namespace {
 
 const std::string kDomain = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
-const std::string kPolicy = std::string{KITH_SOURCE_DIR} + "/docs/examples/crossing_policy.csv";
+const std::string kPolicy = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing_policy.csv";
 
 TEST(InferCommand, WritesADomainThatEverythingElseTeaches) {
   const Scratch scratch;

@@ -105,8 +105,8 @@ class PolicyInference {
     find_likeliest();
   }
 
-  Inference infer() {
-    Inference result;
+  WeightInference infer() {
+    WeightInference result;
     std::optional<Look> found;
     std::optional<Cone> region = optimal_region();
     if (region) {
@@ -404,7 +404,7 @@ class PolicyInference {
            "give the domain features that differ between actions");
   }
 
-  [[noreturn]] void refuse_starts(const Inference& result) const {
+  [[noreturn]] void refuse_starts(const WeightInference& result) const {
     refuse("E0343",
            "from every start the robot meets a state that the weights do not explain (" +
                std::to_string(result.unexplained.size()) + ") or in which it was not seen (" +
@@ -441,7 +441,7 @@ class PolicyInference {
     return result;
   }
 
-  void describe_sides(const Look& look, const Cone& region, Inference& result) {
+  void describe_sides(const Look& look, const Cone& region, WeightInference& result) {
     for (const HalfSpace& facet : region.facets()) result.sides.push_back({facet, 0});
     std::unordered_map<HalfSpace, std::size_t> place;
     for (std::size_t i = 0; i < result.sides.size(); ++i) place.emplace(result.sides[i].half_space, i);
@@ -462,7 +462,7 @@ class PolicyInference {
                      [](const RegionSide& a, const RegionSide& b) { return a.support < b.support; });
   }
 
-  void describe_clashes(const Look& look, const Cone& region, Inference& result) const {
+  void describe_clashes(const Look& look, const Cone& region, WeightInference& result) const {
     auto worst = result.unexplained;
     std::stable_sort(worst.begin(), worst.end(),
                      [](const UnexplainedState& a, const UnexplainedState& b) { return a.loss > b.loss; });
@@ -540,7 +540,7 @@ class PolicyInference {
 
 }  // namespace
 
-Inference infer_weights(const Domain& domain, const ObservedPolicy& policy) {
+WeightInference infer_weights(const Domain& domain, const ObservedPolicy& policy) {
   if (domain.num_features() < 2) {
     throw Error{ErrorKind::kInfeasible, "domain '" + domain.id() + "' has a single feature: there is nothing to weigh"};
   }

@@ -32,7 +32,7 @@ struct RegionSide {
 };
 
 /// The reward weights that explain what a robot does.
-struct Inference {
+struct WeightInference {
   /// Weights, shape [d], of about length 1 and with few digits, strictly inside the region.
   std::vector<double> weights;
   /// If the policy is optimal for some weights: all of these, within the prior. Otherwise those under which what is
@@ -64,6 +64,6 @@ struct Inference {
 /// @throws kith::Error (kInfeasible): E0341 if the best weights explain less than half of what the robot does, or no
 /// more than they would of one that acts at random (which is sure to 95 %, by [hoeffding1963]); E0342 if
 /// all weights explain everything; E0343 if no start is left; E0344 if no weights have a finite optimum.
-[[nodiscard]] Inference infer_weights(const Domain& domain, const ObservedPolicy& policy);
+[[nodiscard]] WeightInference infer_weights(const Domain& domain, const ObservedPolicy& policy);
 
 }  // namespace kith
