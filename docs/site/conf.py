@@ -7,7 +7,7 @@ include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "THIRD_PARTY
                     "docs/examples/*.md"]
 root_doc = "docs/README"
 myst_heading_anchors = 4
-suppress_warnings = ["myst.header", "ref.myst"]  # links to files of the tree, which is not installed
+suppress_warnings = ["myst.header", "ref.myst", "misc.highlighting_failure"]  # links to files of the tree, which is not installed
 highlight_language = "none"
 html_theme = "alabaster"
 html_theme_options = {"description": "Teaches a robot's policy to a group of people", "page_width": "1100px",
