@@ -4,7 +4,10 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
-night=(release ratios headers asan tsan python lesson fuzz slow tidy)
+# In minutes of two cores, the build included, 90 in all; a part that takes longer is stopped.
+night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
+declare -A budget=([release]=14 [ratios]=3 [headers]=4 [asan]=10 [tsan]=6 [python]=6 [lesson]=5 [fuzz]=10 [coverage]=4
+  [slow]=22 [tidy]=6)
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
@@ -19,18 +22,20 @@ usage: ./test.sh             what has to pass before anything is merged:
                                asan     all layers under ASan and UBSan
                                tsan     those that use threads, under TSan
                                python   the module for Python: its tests, notebooks
-                               fuzz     every fuzz target, MINUTES (12) in all
+                               fuzz     every fuzz target, MINUTES (5) in all
+                               coverage what the inputs of fuzzing reach
                                slow     the slow tests
                                lesson   lessons in a file: the engine, and people in a browser
                                tidy     clang-tidy
 
-Every form ends with a table of how long each part took. Missing Debian packages
+Every form ends with a table of how long each part took. Parts of the night have
+budgets, and enter what they did into docs/nightly.md. Missing Debian packages
 are installed first, as ./run.sh does. To run some tests again:
 ctest --preset release -R NAME
 TEXT
 }
 
-mode=normal minutes=12 chosen=()
+mode=normal minutes=5 chosen=()
 for argument in "$@"; do
   case $argument in
     -h | --help) usage; exit ;;
@@ -48,6 +53,7 @@ for argument in "$@"; do
   esac
 done
 ((${#chosen[@]})) || chosen=("${night[@]}")
+budget[fuzz]=$((minutes + 5))
 
 packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
 if [[ $mode == nightly ]]; then
@@ -57,15 +63,41 @@ ensure_packages "${packages[@]}"
 
 jobs=$(nproc)
 table='' failed=0
+deadline='' log=''  # of a part of the night
 part() {  # NAME COMMAND...: a part that fails does not keep the others from running
   local name=$1 start=$SECONDS outcome=''
   shift
-  if ! ("$@"); then
-    outcome=' FAILED'
-    failed=$((failed + 1))
-  fi
+  if [[ -n $deadline ]]; then in_time "$@"; else ("$@"); fi
+  case $? in
+    0) ;;
+    124) outcome=' RAN OVER ITS BUDGET' ;;
+    *) outcome=' FAILED' ;;
+  esac
+  [[ -z $outcome ]] || failed=$((failed + 1))
   table+=$(printf '%6d min %02d s  %s' $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) "$name$outcome")$'\n'
   [[ -z $outcome ]]
+}
+in_time() {  # COMMAND...: 124 if it had to be stopped at the deadline, with all that it started
+  local running status
+  set -m
+  ("$@") < /dev/null > >(tee -a "$log" >&2) 2>&1 &
+  running=$!
+  set +m
+  trap 'kill -- "-$running"; exit 130' INT TERM
+  while kill -0 "$running" 2>/dev/null; do
+    if ((SECONDS >= deadline)); then
+      say "== stopped: out of time"
+      kill -- "-$running"
+      wait "$running" 2>/dev/null
+      trap - INT TERM
+      return 124
+    fi
+    sleep 1
+  done
+  wait "$running"
+  status=$?
+  trap - INT TERM
+  return "$status"
 }
 run_tests() {  # PRESET [OPTION...]
   say
@@ -94,8 +126,11 @@ slow_tests() {
   say
   say "== slow tests in build/release"
   # validation.error_rates runs FalsePositivesSlow itself.
-  ctest --test-dir build/release -L '^slow$' -E '^analysis\.FalsePositivesSlow' --output-on-failure -j "$jobs" ||
-    die "slow tests failed"
+  KITH_NIGHT=$((2 + $(scripts/nightly.py --nights slow))) \
+    ctest --test-dir build/release -L '^slow$' -E '^analysis\.FalsePositivesSlow' --output-on-failure -j "$jobs"
+  local status=$?
+  grep -aE '^(kill|timer|failpoint|io) ' build/release/Testing/Temporary/LastTest.log
+  ((status == 0)) || die "slow tests failed"
 }
 fuzz() {
   say
@@ -104,7 +139,21 @@ fuzz() {
     die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
 }
 
-nightly() {  # PART
+nightly() {  # PART: what it did is a line of $results
+  local start=$SECONDS failed_before=$failed outcome=passed
+  log=$night_folder/$1.log deadline=$((SECONDS + 60 * ${budget[$1]}))
+  : >"$log"
+  run_part "$1"
+  if ((SECONDS >= deadline)); then
+    outcome='out of time'
+  elif ((failed > failed_before)); then
+    outcome=failed
+  fi
+  deadline=''
+  printf '%s\t%d\t%d:%02d\t%s\n' "$1" "${budget[$1]}" $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) \
+    "$outcome" >>"$results"
+}
+run_part() {
   case $1 in
     release) release -DKITH_BUILD_BENCHMARKS=ON ;;
     ratios)
@@ -123,6 +172,10 @@ nightly() {  # PART
       ;;
     # The corpora are replayed by the fuzz targets themselves.
     fuzz) part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz ;;
+    coverage)
+      part "coverage: build" configure_and_build fuzz-coverage -- kith_fuzzers &&
+        part "coverage" tests/fuzz/run.sh --coverage
+      ;;
     slow)
       part "slow tests: build" configure_and_build release -DKITH_BUILD_TESTS=ON -- all && part "slow tests" slow_tests
       ;;
@@ -138,7 +191,14 @@ nightly() {  # PART
 case $mode in
   normal) asan "${sanitized[@]}"; release ;;
   quick) release ;;
-  nightly) for name in "${chosen[@]}"; do nightly "$name"; done ;;
+  nightly)
+    night_folder=build/nightly results=build/nightly/results.tsv
+    mkdir -p "$night_folder"
+    : >"$results"
+    for name in "${chosen[@]}"; do nightly "$name"; done
+    scripts/nightly.py "$results" "$(git describe --always --dirty 2>/dev/null || echo unknown)" ||
+      failed=$((failed + 1))
+    ;;
 esac
 say
 say "Time taken:"
