@@ -1,9 +1,7 @@
 # What every test program links.
 add_library(kith_testing INTERFACE)
-target_link_libraries(kith_testing INTERFACE GTest::gmock_main)
+target_link_libraries(kith_testing INTERFACE GTest::gmock_main kith_compiled_fast)
 target_include_directories(kith_testing INTERFACE ${PROJECT_SOURCE_DIR}/tests/support/include)
-# Tests need not be fast, but have to be compiled, which takes two thirds of the time without optimisation.
-target_compile_options(kith_testing INTERFACE "$<$<CONFIG:Release>:-O0;-U_FORTIFY_SOURCE>")
 target_compile_definitions(kith_testing INTERFACE KITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 
 # What ThreadSanitizer is to see of programs that mostly use one thread.
