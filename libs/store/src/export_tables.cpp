@@ -1,208 +1,191 @@
 #include "export_tables.hpp"
 
+#include "kith/table/column_names.hpp"
+
 namespace kith {
+
 namespace {
 
-Column text(const char* name, const char* description, bool required = true) {
-  return {.name = name, .type = ColumnType::kText, .description = description, .required = required};
-}
-Column identifier(const char* name, const char* description) {
-  auto column = text(name, description);
-  column.kind = ColumnKind::kIdentifier;
-  return column;
-}
-Column integer(const char* name, const char* description, bool required = true, const char* unit = "") {
-  return {.name = name, .type = ColumnType::kInteger, .description = description, .unit = unit, .required = required};
-}
-Column count(const char* name, const char* description, bool required = true) {
-  auto column = integer(name, description, required);
-  column.kind = ColumnKind::kCount;
-  return column;
-}
-Column real(const char* name, const char* description, bool required = true, const char* unit = "") {
-  return {.name = name, .type = ColumnType::kReal, .description = description, .unit = unit, .required = required};
-}
-Column boolean(const char* name, const char* description, bool required = true) {
-  return {.name = name, .type = ColumnType::kBoolean, .description = description, .required = required};
+constexpr auto* kMilliseconds = "ms since 1970";
+constexpr auto kSessionWords = columns::identifier(columns::kSession, "Id of the room, unique in this export.");
+constexpr ColumnWords kSeatWords{columns::kSeat, "Number of the person or stand-in in the room, from 1."};
+constexpr ColumnWords kPeriodWords{columns::kPeriod, "Interaction period, from 1."};
+constexpr ColumnWords kTestWords{columns::kTest, "Test within the period, from 1."};
+constexpr ColumnWords kComponentWords{columns::kTaughtComponent, "What was taught, from 1."};
+
+void declare(TableOf<SessionRow>& table) {
+  using namespace columns;
+  using R = SessionRow;
+  table.column(&R::session, kSessionWords)
+      .column(&R::strategy, {kStrategy, "Strategy that the room was made with."})
+      .column(&R::composition, {kComposition, "Types of the members, one letter each."})
+      .column(&R::replicate, {kReplicate, "Number of the room among those of the same strategy and composition."})
+      .column(&R::size, count("size", "Members of the group."))
+      .column(&R::people, count(kPeople, "Members who were people, not stand-ins."))
+      .column(&R::created_ms, {"created_ms", "When the room was made.", kMilliseconds})
+      .column(&R::started_ms, {kStartedMs, "When teaching began; missing if it never did.", kMilliseconds})
+      .column(&R::last_ms, {"last_ms", "When anything happened last; missing if nothing did.", kMilliseconds})
+      .column(&R::stage, {"stage", "How the room stood at the end of the export: lobby, running, questions or ended."})
+      .column(&R::ended, {kEnded, "Why the session ended before its time; missing if it did not."})
+      .column(&R::completed,
+              {kCompleted, "Whether every component was learned, implied by others or left out by design."})
+      .column(&R::periods, count(kPeriods, "Completed interaction periods."))
+      .column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown in completed periods."))
+      .column(&R::tests, count(kTests, "Tests asked in completed periods, per member."))
+      .column(&R::share_right, {kShareRight, "Share of answered tests of completed periods that were right."})
+      .column(&R::components_learned, count("components_learned", "Components that everybody learned."))
+      .column(&R::knowledge, {kKnowledge,
+                              "Mean over members of the teacher's belief that a member knows the robot's policy; "
+                              "missing if the strategy does not use beliefs about members."})
+      .column(&R::digest, {"digest", "Digest of the room's final state, equal whenever the room is replayed."});
 }
 
-Column session_column() { return identifier("session", "Id of the room, unique in this export."); }
-Column seat_column() { return integer("seat", "Number of the person or stand-in in the room, from 1."); }
-Column period_column() { return integer("period", "Interaction period, from 1."); }
+void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options) {
+  using namespace columns;
+  using R = ParticipantRow;
+  table.column(&R::session, kSessionWords)
+      .column(&R::seat, kSeatWords)
+      .column(&R::member, {kMember, "Place in the group, from 1; missing for people who waited in reserve."})
+      .column(&R::type, {kType, "Letter of the learner type of that place."})
+      .column(&R::strategy, {kStrategy, "Strategy of the room; missing for people who stayed on the waiting list."})
+      .column(&R::composition, {kComposition, "Types of the members of the room; missing like the strategy."})
+      .column(&R::simulated, {kSimulated, "Whether this is a simulated stand-in."})
+      .column(&R::joined_ms, {"joined_ms", "When the person took the seat.", kMilliseconds})
+      .column(&R::consent, {"consent", "Version of the consent text that was agreed to."})
+      .column(&R::stage, {"stage", "Last page that the person saw; missing for stand-ins."})
+      .column(&R::times_away, count("times_away", "How often the connection was lost for more than 10 s."))
+      .column(&R::seconds_away, {"seconds_away", "How long in total.", "s"})
+      .column(&R::tests, count(kTests, "Tests answered in completed periods."))
+      .column(&R::right, count(kRight, "Of them, answered rightly."))
+      .column(&R::share_right, {kShareRight, "right / tests; missing without tests."})
+      .column(&R::p_bec, {kBelief, "The teacher's final belief that the member knows the robot's policy."})
+      .column(&R::estimate, {"estimate",
+                             "Estimate of ability from the screening, the expected share of right answers; missing "
+                             "without a finished screening."});
+  if (!options.with_names) return;
+  table.column(&R::name, {"name", "Name that the person gave."})
+      .column(&R::query, {"query", "Parameters of the recruitment platform, as JSON."})
+      .column(&R::code, {"code", "Completion code that the person was shown."});
+}
+
+void declare(TableOf<PeriodRow>& table) {
+  using namespace columns;
+  using R = PeriodRow;
+  table.column(&R::session, kSessionWords)
+      .column(&R::period, kPeriodWords)
+      .column(&R::component, kComponentWords)
+      .column(&R::source, {"source", "Whose belief the lesson was chosen for: common, joint, or member N."})
+      .column(&R::chosen_ms, {"chosen_ms", "When the teacher had chosen the lesson.", kMilliseconds})
+      .column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown."))
+      .column(&R::tests, count(kTests, "Tests asked."))
+      .column(&R::n_active, count(kActive, "Members who took part in the tests."))
+      .column(&R::all_right,
+              {"all_right", "Whether all of them answered all tests rightly; missing if the period was not finished."})
+      .column(&R::gain, {"gain", "log(area of the taught region before / after the lesson)."})
+      .column(&R::area_sr, {kAreaSr, "Solid angle of what the lesson teaches.", "sr"})
+      .column(&R::digest, {"digest", "Digest of lesson and beliefs, compared in every replay."});
+}
+
+void declare(TableOf<TestRow>& table) {
+  using namespace columns;
+  using R = TestRow;
+  table.column(&R::session, kSessionWords)
+      .column(&R::period, kPeriodWords)
+      .column(&R::component, kComponentWords)
+      .column(&R::test, kTestWords)
+      .column(&R::seat, kSeatWords)
+      .column(&R::member, {kMember, "Place in the group, from 1."})
+      .column(&R::type, {kType, "Letter of the learner type."})
+      .column(&R::strategy, {kStrategy, "Strategy of the room."})
+      .column(&R::mdp, {kMdp, "Number of the world."})
+      .column(&R::start, {kStart, "State in which the test begins."})
+      .column(&R::path, {"path",
+                         "Names of the actions of the answer, separated by blanks; ... behind them if they go on like "
+                         "this for ever."})
+      .column(&R::actions, count("actions", "Their number."))
+      .column(&R::correct,
+              {kCorrect, "Whether the path is as good as the robot's; missing if the period was not finished."})
+      .column(&R::regret, {kRegret,
+                           "Return of the robot's path minus that of the answer; missing if the person stopped short "
+                           "of the end."})
+      .column(&R::rt, {"rt", "Time from the test appearing to submitting, as the browser measured it.", "s"})
+      .column(&R::at_ms, {"at_ms", "When the answer was saved.", kMilliseconds});
+}
+
+void declare(TableOf<DiscussionRow>& table) {
+  using namespace columns;
+  using R = DiscussionRow;
+  table.column(&R::session, kSessionWords)
+      .column(&R::period, kPeriodWords)
+      .column(&R::component, kComponentWords)
+      .column(&R::test, kTestWords)
+      .column(&R::seat, {kSeat, "Number of the person in the room, from 1; missing for stand-ins."})
+      .column(&R::member, {kMember, "Place in the group, from 1."})
+      .column(&R::correct, {kCorrect, "Whether the first answer is as good as the robot's path."})
+      .column(&R::revised_correct, {"revised_correct", "Whether the answer after the discussion is."})
+      .column(&R::changed, {"changed", "Whether that is another answer."});
+}
 
 }  // namespace
 
-TableDescription sessions_table() {
-  return {
-      .file = kSessionsFile,
-      .description = "One room: a group that was taught together.",
-      .columns = {session_column(), text("strategy", "Strategy that the room was made with."),
-                  text("composition", "Types of the members, one letter each."),
-                  integer("replicate", "Number of the room among those of the same strategy and composition."),
-                  count("size", "Members of the group."), count("people", "Members who were people, not stand-ins."),
-                  integer("created_ms", "When the room was made.", true, "ms since 1970"),
-                  integer("started_ms", "When teaching began; missing if it never did.", false, "ms since 1970"),
-                  integer("last_ms", "When anything happened last; missing if nothing did.", false, "ms since 1970"),
-                  text("stage", "How the room stood at the end of the export: lobby, running, questions or ended."),
-                  text("ended", "Why the session ended before its time; missing if it did not.", false),
-                  boolean("completed", "Whether every component was learned, implied by others or left out by design."),
-                  count("periods", "Completed interaction periods."),
-                  count("demonstrations", "Demonstrations shown in completed periods."),
-                  count("tests", "Tests asked in completed periods, per member."),
-                  real("share_right", "Share of answered tests of completed periods that were right.", false),
-                  count("components_learned", "Components that everybody learned."),
-                  real("knowledge",
-                       "Mean over members of the teacher's belief that a member knows the robot's policy; "
-                       "missing if the strategy does not use beliefs about members.",
-                       false),
-                  text("digest", "Digest of the room's final state, equal whenever the room is replayed.")}};
-}
+ExportTables::ExportTables(const SessionExportOptions& options)
+    : questions{"questions.csv", options.with_text ? "One answer to one question at the end."
+                                                   : "One answer to one question at the end; free text is left out."} {
+  using namespace columns;
+  declare(sessions);
+  declare(participants, options);
+  declare(periods);
+  declare(tests);
+  declare(discussions);
 
-TableDescription participants_table(const SessionExportOptions& options) {
-  TableDescription table{
-      .file = kParticipantsFile,
-      .description = "One person or stand-in in a room.",
-      .columns = {session_column(), seat_column(),
-                  integer("member", "Place in the group, from 1; missing for people who waited in reserve.", false),
-                  text("type", "Letter of the learner type of that place.", false),
-                  text("strategy", "Strategy of the room; missing for people who stayed on the waiting list.", false),
-                  text("composition", "Types of the members of the room; missing like the strategy.", false),
-                  boolean("simulated", "Whether this is a simulated stand-in."),
-                  integer("joined_ms", "When the person took the seat.", false, "ms since 1970"),
-                  text("consent", "Version of the consent text that was agreed to.", false),
-                  text("stage", "Last page that the person saw; missing for stand-ins.", false),
-                  count("times_away", "How often the connection was lost for more than 10 s."),
-                  real("seconds_away", "How long in total.", true, "s"),
-                  count("tests", "Tests answered in completed periods."), count("right", "Of them, answered rightly."),
-                  real("share_right", "right / tests; missing without tests.", false),
-                  real("p_bec", "The teacher's final belief that the member knows the robot's policy.", false),
-                  real("estimate",
-                       "Estimate of ability from the screening, the expected share of right answers; missing without a "
-                       "finished screening.",
-                       false)}};
-  if (options.with_names) {
-    table.columns.push_back(text("name", "Name that the person gave.", false));
-    table.columns.push_back(text("query", "Parameters of the recruitment platform, as JSON.", false));
-    table.columns.push_back(text("code", "Completion code that the person was shown.", false));
-  }
-  return table;
-}
+  keys.column(&KeyRow::session, kSessionWords)
+      .column(&KeyRow::period, kPeriodWords)
+      .column(&KeyRow::test, kTestWords)
+      .column(&KeyRow::seat, kSeatWords)
+      .column(&KeyRow::key, {"key", "Place in the answer, from 1."})
+      .column(&KeyRow::action, {"action", "Name of the action, undo or reset."})
+      .column(&KeyRow::ms, {"ms", "Since the test appeared, as the browser measured it.", "ms"});
 
-TableDescription periods_table() {
-  return {.file = kPeriodsFile,
-          .description = "One interaction period of a room: a lesson with its tests.",
-          .columns = {session_column(), period_column(), integer("component", "What was taught, from 1."),
-                      text("source", "Whose belief the lesson was chosen for: common, joint, or member N."),
-                      integer("chosen_ms", "When the teacher had chosen the lesson.", true, "ms since 1970"),
-                      count("demonstrations", "Demonstrations shown."), count("tests", "Tests asked."),
-                      count("n_active", "Members who took part in the tests.", false),
-                      boolean("all_right",
-                              "Whether all of them answered all tests rightly; missing if the period was not "
-                              "finished.",
-                              false),
-                      real("gain", "log(area of the taught region before / after the lesson)."),
-                      real("area_sr", "Solid angle of what the lesson teaches.", true, "sr"),
-                      text("digest", "Digest of lesson and beliefs, compared in every replay.")}};
-}
+  questions.column(&QuestionRow::session, kSessionWords)
+      .column(&QuestionRow::seat, kSeatWords)
+      .column(&QuestionRow::question, identifier("question", "Id of the question."))
+      .column(&QuestionRow::kind, {"kind", "likert, choice or text."})
+      .column(&QuestionRow::value, {"value", "The answer; missing for free text unless it was asked for."});
 
-TableDescription tests_table() {
-  return {.file = kTestsFile,
-          .description = "One answer of a person to one test.",
-          .columns = {session_column(), period_column(), integer("component", "What was taught, from 1."),
-                      integer("test", "Test within the period, from 1."), seat_column(),
-                      integer("member", "Place in the group, from 1."), text("type", "Letter of the learner type."),
-                      text("strategy", "Strategy of the room."), integer("mdp", "Number of the world."),
-                      integer("start", "State in which the test begins."),
-                      text("path",
-                           "Names of the actions of the answer, separated by blanks; ... behind them if they go on "
-                           "like this for ever.",
-                           false),
-                      count("actions", "Their number."),
-                      boolean("correct",
-                              "Whether the path is as good as the robot's; missing if the period was not "
-                              "finished.",
-                              false),
-                      real("regret",
-                           "Return of the robot's path minus that of the answer; missing if the person stopped "
-                           "short of the end.",
-                           false),
-                      real("rt", "Time from the test appearing to submitting, as the browser measured it.", false, "s"),
-                      integer("at_ms", "When the answer was saved.", true, "ms since 1970")}};
-}
+  trials.column(&TrialRow::user_id, identifier("user_id", "Seat of the person."))
+      .column(&TrialRow::group, identifier("group", "Id of the room."))
+      .column(&TrialRow::domain, {"domain", "Id of the domain."})
+      .column([](const TrialRow&) { return "cl"; }, {"loop_condition", "cl: closed loop."})
+      .column(&TrialRow::kc_id, {"kc_id", "Component, from 1."})
+      .column(&TrialRow::interaction_type, {"interaction_type", "demo, diagnostic test or diagnostic feedback."})
+      .column(&TrialRow::is_opt_response, {"is_opt_response", "1 or 0 for tests."})
+      .column(&TrialRow::mdp_parameters, {"mdp_parameters", "JSON with the constraints, normals of half-spaces."});
 
-TableDescription discussions_table() {
-  return {.file = kDiscussionsFile,
-          .description = "One answer before and after the group saw all answers, of people and of stand-ins.",
-          .columns = {session_column(), period_column(), integer("component", "What was taught, from 1."),
-                      integer("test", "Test within the period, from 1."),
-                      integer("seat", "Number of the person in the room, from 1; missing for stand-ins.", false),
-                      integer("member", "Place in the group, from 1."),
-                      boolean("correct", "Whether the first answer is as good as the robot's path."),
-                      boolean("revised_correct", "Whether the answer after the discussion is."),
-                      boolean("changed", "Whether that is another answer.")}};
-}
+  beliefs.column(&BeliefRow::session, kSessionWords)
+      .column(&BeliefRow::period, kPeriodWords)
+      .column(&BeliefRow::belief,
+              {"belief", "Whom the belief is about: member N, or how beliefs were combined, such as common."})
+      .column(&BeliefRow::member, {kMember, "Place in the group, from 1; missing for combined beliefs."})
+      .column(&BeliefRow::p_bec, {kBelief,
+                                  "Share of the belief in the set of rewards that lead to the robot's policy: the "
+                                  "teacher's estimate of what the member knows."});
 
-TableDescription keys_table() {
-  return {
-      .file = kKeysFile,
-      .description = "One keypress, click or tap of an answer.",
-      .columns = {session_column(), period_column(), integer("test", "Test within the period, from 1."), seat_column(),
-                  integer("key", "Place in the answer, from 1."), text("action", "Name of the action, undo or reset."),
-                  integer("ms", "Since the test appeared, as the browser measured it.", true, "ms")}};
-}
-
-TableDescription questions_table(const SessionExportOptions& options) {
-  return {.file = kQuestionsFile,
-          .description = options.with_text ? "One answer to one question at the end."
-                                           : "One answer to one question at the end; free text is left out.",
-          .columns = {session_column(), seat_column(), identifier("question", "Id of the question."),
-                      text("kind", "likert, choice or text."),
-                      text("value", "The answer; missing for free text unless it was asked for.", false)}};
-}
-
-TableDescription trials_table() {
-  return {.file = kTrialsFile,
-          .description = "One demonstration, test or feedback of one person, in order, for 'kith fit'.",
-          .columns = {identifier("user_id", "Seat of the person."), identifier("group", "Id of the room."),
-                      text("domain", "Id of the domain."), text("loop_condition", "cl: closed loop."),
-                      text("kc_id", "Component, from 1."),
-                      text("interaction_type", "demo, diagnostic test or diagnostic feedback."),
-                      text("is_opt_response", "1 or 0 for tests.", false),
-                      text("mdp_parameters", "JSON with the constraints, normals of half-spaces.")}};
-}
-
-TableDescription beliefs_table() {
-  return {
-      .file = kBeliefsFile,
-      .description = "What the teacher believed at the end of a period.",
-      .columns = {session_column(), period_column(),
-                  text("belief", "Whom the belief is about: member N, or how beliefs were combined, such as common."),
-                  integer("member", "Place in the group, from 1; missing for combined beliefs.", false),
-                  real("p_bec",
-                       "Share of the belief in the set of rewards that lead to the robot's policy: the teacher's "
-                       "estimate of what the member knows.")}};
-}
-
-TableDescription events_table() {
-  return {.file = kEventsFile,
-          .description = "One event of a room: everything that happened, in order.",
-          .columns = {session_column(), integer("seq", "Number within the room, from 1."),
-                      integer("at_us", "When it happened.", true, "us since 1970"),
-                      text("actor",
-                           "seat:N, facilitator or "
-                           "server."),
-                      text("type", "What happened."),
-                      text("body",
-                           "The rest, as JSON; what identifies people and free text are left out unless asked "
-                           "for.")}};
+  events.column(&EventRow::session, kSessionWords)
+      .column(&EventRow::seq, {"seq", "Number within the room, from 1."})
+      .column(&EventRow::at_us, {"at_us", "When it happened.", "us since 1970"})
+      .column(&EventRow::actor, {"actor", "seat:N, facilitator or server."})
+      .column(&EventRow::type, {kType, "What happened."})
+      .column(&EventRow::body,
+              {"body", "The rest, as JSON; what identifies people and free text are left out unless asked for."});
 }
 
 std::vector<TableDescription> export_tables(const SessionExportOptions& options) {
-  std::vector<TableDescription> tables{sessions_table(), participants_table(options), periods_table(), tests_table(),
-                                       keys_table(),     questions_table(options),    trials_table(),  beliefs_table(),
-                                       events_table()};
-  if (options.with_discussions) tables.push_back(discussions_table());
+  const ExportTables all{options};
+  if (options.with_discussions) tables.push_back(all.discussions.description());
   return tables;
+  return {all.sessions.description(), all.participants.description(), all.periods.description(),
+          all.tests.description(),    all.keys.description(),         all.questions.description(),
+          all.trials.description(),   all.beliefs.description(),      all.events.description()};
 }
 
 }  // namespace kith

@@ -1,37 +1,134 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "kith/store/session_export.hpp"
-#include "kith/table/codebook.hpp"
+#include "kith/table/table_of.hpp"
 
-// What the tables of an export are: the one place where their columns are defined.
+// What the tables of an export are: the one place where their columns are defined, by what a row of them holds.
 namespace kith {
 
 inline constexpr const char* kSessionsFile = "sessions.csv";
-inline constexpr const char* kParticipantsFile = "participants.csv";
-inline constexpr const char* kPeriodsFile = "periods.csv";
-inline constexpr const char* kTestsFile = "tests.csv";
-inline constexpr const char* kDiscussionsFile = "discussions.csv";
-inline constexpr const char* kKeysFile = "keypresses.csv";
-inline constexpr const char* kQuestionsFile = "questions.csv";
-inline constexpr const char* kTrialsFile = "trials.csv";
-inline constexpr const char* kBeliefsFile = "beliefs.csv";
 inline constexpr const char* kEventsFile = "events.csv";
 // What was taught, and to whom: for `kith report`.
 inline constexpr const char* kAboutFile = "study.json";
 
-[[nodiscard]] TableDescription sessions_table();
-[[nodiscard]] TableDescription participants_table(const SessionExportOptions& options);
-[[nodiscard]] TableDescription periods_table();
-[[nodiscard]] TableDescription tests_table();
-[[nodiscard]] TableDescription discussions_table();
-[[nodiscard]] TableDescription keys_table();
-[[nodiscard]] TableDescription questions_table(const SessionExportOptions& options);
-[[nodiscard]] TableDescription trials_table();
-[[nodiscard]] TableDescription beliefs_table();
-[[nodiscard]] TableDescription events_table();
+struct SessionRow {
+  std::string session, strategy, composition;
+  std::size_t replicate, size, people;
+  std::int64_t created_ms;
+  std::optional<std::int64_t> started_ms{}, last_ms{};
+  std::string stage;
+  std::optional<std::string> ended{};
+  bool completed;
+  std::size_t periods, demonstrations, tests;
+  std::optional<double> share_right{};
+  std::size_t components_learned;
+  std::optional<double> knowledge{};
+  std::string digest;
+};
+
+struct ParticipantRow {
+  std::string session;
+  std::size_t seat;
+  std::optional<std::size_t> member{};
+  std::optional<std::string> type{}, strategy{}, composition{};
+  bool simulated;
+  std::optional<std::int64_t> joined_ms{};
+  std::optional<std::string> consent{}, stage{};
+  std::size_t times_away;
+  double seconds_away;
+  std::size_t tests, right;
+  std::optional<double> share_right{}, p_bec{}, estimate{};
+  std::optional<std::string> name{}, query{}, code{};
+};
+
+struct PeriodRow {
+  std::string session;
+  std::size_t period, component;
+  std::string source;
+  std::int64_t chosen_ms;
+  std::size_t demonstrations, tests;
+  std::optional<std::size_t> n_active{};
+  std::optional<bool> all_right{};
+  double gain, area_sr;
+  std::string digest;
+};
+
+// An answer of a person, or of a stand-in, whose paths are not kept.
+struct TestRow {
+  std::string session;
+  std::size_t period, component, test, seat, member;
+  std::string type, strategy;
+  std::size_t mdp, start;
+  std::optional<std::string> path{};
+  std::size_t actions;
+  std::optional<bool> correct{};
+  std::optional<double> regret{}, rt{};
+  std::int64_t at_ms;
+};
+
+// An answer before and after the group saw all answers.
+struct DiscussionRow {
+  std::string session;
+  std::size_t period, component, test;
+  std::optional<std::size_t> seat{};
+  std::size_t member;
+  bool correct, revised_correct, changed;
+};
+
+struct KeyRow {
+  std::string session;
+  std::size_t period, test, seat, key;
+  std::string action;
+  std::int64_t ms;
+};
+
+struct QuestionRow {
+  std::string session;
+  std::size_t seat;
+  std::string question, kind;
+  std::optional<std::string> value{};
+};
+
+struct TrialRow {
+  std::string user_id, group, domain, kc_id, interaction_type;
+  std::optional<std::string> is_opt_response{};
+  std::string mdp_parameters;
+};
+
+struct BeliefRow {
+  std::string session;
+  std::size_t period;
+  std::string belief;
+  std::optional<std::size_t> member{};
+  double p_bec;
+};
+
+struct EventRow {
+  std::string session;
+  std::uint64_t seq;
+  std::int64_t at_us;
+  std::string actor, type, body;
+};
+
+struct ExportTables {
+  explicit ExportTables(const SessionExportOptions& options);
+
+  TableOf<SessionRow> sessions{kSessionsFile, "One room: a group that was taught together."};
+  TableOf<ParticipantRow> participants{"participants.csv", "One person or stand-in in a room."};
+  TableOf<PeriodRow> periods{"periods.csv", "One interaction period of a room: a lesson with its tests."};
+  TableOf<TestRow> tests{"tests.csv", "One answer of a person to one test."};
+  TableOf<DiscussionRow> discussions{
+      "discussions.csv", "One answer before and after the group saw all answers, of people and of stand-ins."};
+  TableOf<KeyRow> keys{"keypresses.csv", "One keypress, click or tap of an answer."};
+  TableOf<QuestionRow> questions;
+  TableOf<TrialRow> trials{"trials.csv",
+                           "One demonstration, test or feedback of one person, in order, for 'kith fit'."};
+  TableOf<BeliefRow> beliefs{"beliefs.csv", "What the teacher believed at the end of a period."};
+  TableOf<EventRow> events{kEventsFile, "One event of a room: everything that happened, in order."};
+};
 
 }  // namespace kith

@@ -22,14 +22,17 @@ std::optional<std::int64_t> ms_if_any(std::int64_t us) {
   return us == 0 ? std::nullopt : std::optional<std::int64_t>{us / 1000};
 }
 std::optional<std::string> if_any(const std::string& text) { return text.empty() ? std::nullopt : std::optional{text}; }
+std::optional<double> share(std::size_t part, std::size_t all) {
+  return all == 0 ? std::nullopt : std::optional{static_cast<double>(part) / static_cast<double>(all)};
+}
 // CSV cells hold no zero bytes.
 std::string printable(std::string text) {
   std::erase(text, '\0');
   return text;
 }
 
-// One row of tests.csv: an answer of a person, or of a stand-in, whose paths are not kept.
-struct TestRow {
+// What a row of tests.csv is about.
+struct GivenAnswer {
   std::size_t period = 0;
   std::size_t test = 0;  // from 0
   std::size_t seat = 0;
@@ -39,16 +42,19 @@ struct TestRow {
 };
 
 // The writers of all tables; hashes what they write.
-class Tables {
+class Writers {
  public:
-  Tables(const SessionExportOptions& options, const ExportSink& sink) : sink_{sink} {
+  Writers(const SessionExportOptions& options, const ExportSink& sink) : sink_{sink} {
     for (auto& table : export_tables(options)) {
       const auto file = table.file;
       hashes_.try_emplace(file);
       writers_.try_emplace(file, std::move(table.columns), [this, file](std::string_view piece) { put(file, piece); });
     }
   }
-  CsvWriter& operator[](const char* file) { return writers_.at(file); }
+  template <typename Row>
+  void add(const TableOf<Row>& table, const Row& row) {
+    table.write(writers_.at(table.description().file), row);
+  }
 
   void put(const std::string& file, std::string_view piece) {
     hashes_[file].update(piece);
@@ -81,7 +87,7 @@ class Tables {
 class Exporter {
  public:
   Exporter(const std::shared_ptr<const LiveStudy>& study, const SessionExportOptions& options, const ExportSink& sink)
-      : study_{study}, atlas_{*study->atlas}, options_{options}, tables_{options, sink} {}
+      : study_{study}, atlas_{*study->atlas}, options_{options}, tables_{options}, write_{options, sink} {}
 
   void add(const RoomHistory& history) {
     history_ = &history;
@@ -102,7 +108,7 @@ class Exporter {
   }
 
   ExportReport finish(const EventFile& file) {
-    return tables_.finish(export_tables(options_), file.identity().study, about(file));
+    return write_.finish(export_tables(options_), file.identity().study, about(file));
   }
 
  private:
@@ -162,18 +168,27 @@ class Exporter {
     }
     const auto simulated = std::count(setup().simulated.begin(), setup().simulated.end(), true);
     constexpr const char* kStages[] = {"lobby", "running", "questions", "ended"};
-    auto& row = tables_[kSessionsFile];
-    row.text(id()).text(setup().strategy).text(setup().composition).integer(setup().replicate);
-    row.integer(setup().composition.size());
-    row.integer(setup().composition.size() - static_cast<std::size_t>(simulated));
-    row.integer(ms_of(history_->stored.created_us)).integer(ms_if_any(history_->started_us));
-    row.integer(ms_if_any(history_->events.empty() ? 0 : history_->events.back().at_us));
-    row.text(kStages[static_cast<std::size_t>(history_->room->stage())]).text_or_missing(if_any(history_->ended));
-    row.boolean(session().status() == SessionStatus::kComplete).integer(past.size()).integer(demonstrations);
-    row.integer(tests);
-    row.real(answered == 0 ? std::nullopt : std::optional{static_cast<double>(right) / static_cast<double>(answered)});
-    row.integer(learned).real(is_known ? std::optional{knowledge} : std::nullopt).text(history_->replayed.digest);
-    row.end_row();
+    const auto& events = history_->events;
+    const auto size = setup().composition.size();
+    write_.add(tables_.sessions, {.session = id(),
+                                  .strategy = setup().strategy,
+                                  .composition = setup().composition,
+                                  .replicate = setup().replicate,
+                                  .size = size,
+                                  .people = size - static_cast<std::size_t>(simulated),
+                                  .created_ms = ms_of(history_->stored.created_us),
+                                  .started_ms = ms_if_any(history_->started_us),
+                                  .last_ms = ms_if_any(events.empty() ? 0 : events.back().at_us),
+                                  .stage = kStages[static_cast<std::size_t>(history_->room->stage())],
+                                  .ended = if_any(history_->ended),
+                                  .completed = session().status() == SessionStatus::kComplete,
+                                  .periods = past.size(),
+                                  .demonstrations = demonstrations,
+                                  .tests = tests,
+                                  .share_right = share(right, answered),
+                                  .components_learned = learned,
+                                  .knowledge = is_known ? std::optional{knowledge} : std::nullopt,
+                                  .digest = history_->replayed.digest});
   }
 
   void write_participant(std::size_t seat, const SeatRow& person) {
@@ -185,66 +200,66 @@ class Exporter {
       ++tests;
       right += judged->correct ? 1u : 0u;
     }
-    auto& row = tables_[kParticipantsFile];
-    row.text(id()).integer(seat);
-    if (person.member) {
-      row.integer(*person.member);
-    } else {
-      row.missing();
-    }
     const auto group = setup().is_waiting_list ? RoomSetup{} : setup();
-    row.text_or_missing(type_of(person.member)).text_or_missing(if_any(group.strategy));
-    row.text_or_missing(if_any(group.composition))
-        .boolean(person.simulated)
-        .integer(ms_if_any(person.joined_us))
-        .text_or_missing(if_any(person.consent));
     const auto stage = stage_of(seat);
-    row.text_or_missing(if_any(stage)).integer(person.times_away).real(static_cast<double>(person.away_us) / 1e6);
-    row.integer(tests).integer(right);
-    row.real(tests == 0 ? std::nullopt : std::optional{static_cast<double>(right) / static_cast<double>(tests)});
     const bool is_last = person.member && history_->seat_of(*person.member) == seat;
-    row.real(is_last ? belief_in(*person.member) : std::nullopt);
     const auto& screened = person.screened;
     const auto passed = static_cast<std::size_t>(std::count(screened.begin(), screened.end(), true));
     const bool is_screened = !screened.empty() && screened.size() == study_->screening.size();
-    row.real(is_screened ? std::optional{screening_estimate(passed, screened.size())} : std::nullopt);
-    if (options_.with_names) {
-      row.text_or_missing(if_any(printable(person.name)));
-      row.text_or_missing(person.query.empty() ? std::nullopt : std::optional{printable(person.query.dump())});
-      const bool has_code = stage == "debrief" || stage == "ended" || stage == "replaced";
-      row.text_or_missing(has_code ? std::optional{completion_code(*study_, setup().salt, setup().id, seat)}
-                                   : std::nullopt);
-    }
-    row.end_row();
+    ParticipantRow row{.session = id(),
+                       .seat = seat,
+                       .member = person.member,
+                       .type = type_of(person.member),
+                       .strategy = if_any(group.strategy),
+                       .composition = if_any(group.composition),
+                       .simulated = person.simulated,
+                       .joined_ms = ms_if_any(person.joined_us),
+                       .consent = if_any(person.consent),
+                       .stage = if_any(stage),
+                       .times_away = person.times_away,
+                       .seconds_away = static_cast<double>(person.away_us) / 1e6,
+                       .tests = tests,
+                       .right = right,
+                       .share_right = share(right, tests),
+                       .p_bec = is_last ? belief_in(*person.member) : std::nullopt,
+                       .name = if_any(printable(person.name))};
+    if (is_screened) row.estimate = screening_estimate(passed, screened.size());
+    if (!person.query.empty()) row.query = printable(person.query.dump());
+    const bool has_code = stage == "debrief" || stage == "ended" || stage == "replaced";
+    if (has_code && options_.with_names) row.code = completion_code(*study_, setup().salt, setup().id, seat);
+    write_.add(tables_.participants, row);
   }
 
   void write_period(const LessonRow& lesson_row) {
     const auto& lesson = lesson_row.lesson;
     const auto& past = session().history();
+    const auto& source = lesson.source;
+    PeriodRow row{.session = id(),
+                  .period = lesson.period,
+                  .component = lesson.component + 1,
+                  .source = source.is_member() ? "member " + std::to_string(source.member + 1) : source.rule,
+                  .chosen_ms = ms_of(lesson_row.chosen_us),
+                  .demonstrations = lesson.demonstrations.size(),
+                  .tests = lesson.tests.size(),
+                  .gain = lesson.gain,
+                  .area_sr = lesson.area_sr,
+                  .digest = lesson_row.digest};
     const bool is_finished = lesson.period <= past.size();
-    auto& row = tables_[kPeriodsFile];
-    row.text(id()).integer(lesson.period).integer(lesson.component + 1);
-    row.text(lesson.source.is_member() ? "member " + std::to_string(lesson.source.member + 1) : lesson.source.rule);
-    row.integer(ms_of(lesson_row.chosen_us)).integer(lesson.demonstrations.size()).integer(lesson.tests.size());
     if (is_finished) {
       const auto& feedback = past[lesson.period - 1].feedback;
-      std::size_t active = 0;
-      bool all_right = true;
+      row.n_active = 0;
+      row.all_right = true;
       for (std::size_t i = 0; i < feedback.verdicts.size(); ++i) {
         if (feedback.verdicts[i].empty()) continue;
-        ++active;
-        all_right = all_right && feedback.all_correct[i];
+        ++*row.n_active;
+        row.all_right = *row.all_right && feedback.all_correct[i];
       }
-      row.integer(active).boolean(all_right);
-    } else {
-      row.missing().missing();
     }
-    row.real(lesson.gain).real(lesson.area_sr).text(lesson_row.digest);
-    row.end_row();
+    write_.add(tables_.periods, row);
   }
 
-  [[nodiscard]] std::vector<TestRow> test_rows() const {
-    std::vector<TestRow> rows;
+  [[nodiscard]] std::vector<GivenAnswer> given_answers() const {
+    std::vector<GivenAnswer> rows;
     for (const auto& answer : history_->answers) {
       rows.push_back({.period = answer.period,
                       .test = answer.test,
@@ -263,12 +278,12 @@ class Exporter {
           rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
       }
     }
-    std::stable_sort(rows.begin(), rows.end(), [](const TestRow& a, const TestRow& b) { return a.key() < b.key(); });
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
     return rows;
   }
 
   void write_tests() {
-    for (const auto& test : test_rows()) {
+    for (const auto& test : given_answers()) {
       const auto* answer = test.answer;
       const auto* lesson_row =
           answer != nullptr ? &history_->lessons[answer->lesson] : history_->lesson_of(test.period);
@@ -276,21 +291,28 @@ class Exporter {
       const auto& lesson = lesson_row->lesson;
       const auto place = atlas_.id(lesson.tests[test.test].demo);
       const auto* judged = lesson_row->is_replaced ? nullptr : verdict(test.period, test.member, test.test);
-      auto& row = tables_[kTestsFile];
-      row.text(id()).integer(test.period).integer(lesson.component + 1).integer(test.test + 1).integer(test.seat);
-      row.integer(test.member).text(type_of(test.member).value_or("")).text(setup().strategy);
-      row.integer(place.mdp.value()).integer(place.start.value());
+      TestRow row{.session = id(),
+                  .period = test.period,
+                  .component = lesson.component + 1,
+                  .test = test.test + 1,
+                  .seat = test.seat,
+                  .member = test.member,
+                  .type = type_of(test.member).value_or(""),
+                  .strategy = setup().strategy,
+                  .mdp = place.mdp.value(),
+                  .start = place.start.value(),
+                  .actions = 0,
+                  .at_ms = ms_of(answer != nullptr ? answer->at_us : lesson_row->chosen_us)};
       if (answer != nullptr) {
-        row.text(path_of(*answer)).integer(answer->actions.size());
-      } else {
-        row.missing().integer(std::size_t{0});
+        row.path = path_of(*answer);
+        row.actions = answer->actions.size();
+        if (answer->ms) row.rt = static_cast<double>(*answer->ms) / 1000.0;
       }
-      row.boolean(judged != nullptr ? std::optional{judged->correct} : std::nullopt);
-      row.real(judged != nullptr && judged->answered ? std::optional{judged->regret} : std::nullopt);
-      row.real(answer != nullptr && answer->ms ? std::optional{static_cast<double>(*answer->ms) / 1000.0}
-                                               : std::nullopt);
-      row.integer(ms_of(answer != nullptr ? answer->at_us : lesson_row->chosen_us));
-      row.end_row();
+      if (judged != nullptr) {
+        row.correct = judged->correct;
+        if (judged->answered) row.regret = judged->regret;
+      }
+      write_.add(tables_.tests, row);
       if (answer != nullptr) write_keys(*answer);
     }
   }
@@ -312,13 +334,16 @@ class Exporter {
     for (const auto& key : answer.keys) {
       ++number;
       if (!key.is_array() || key.size() != 2 || !key[1].is_number_integer()) continue;
-      auto& row = tables_[kKeysFile];
-      row.text(id()).integer(answer.period).integer(answer.test + 1).integer(answer.seat).integer(number);
-      row.text(key[0].is_number_unsigned() ? name_of_action(key[0].get<std::size_t>())
-               : key[0].is_string()        ? printable(key[0].get<std::string>())
-                                           : "?");
-      row.integer(key[1].get<std::int64_t>());
-      row.end_row();
+      std::string action = "?";
+      if (key[0].is_number_unsigned()) action = name_of_action(key[0].get<std::size_t>());
+      if (key[0].is_string()) action = printable(key[0].get<std::string>());
+      write_.add(tables_.keys, {.session = id(),
+                                .period = answer.period,
+                                .test = answer.test + 1,
+                                .seat = answer.seat,
+                                .key = number,
+                                .action = action,
+                                .ms = key[1].get<std::int64_t>()});
     }
   }
 
@@ -328,14 +353,10 @@ class Exporter {
         const auto answer = person.answers.find(question.id);
         if (answer == person.answers.end() || answer->is_null()) continue;
         const bool is_hidden = question.kind == GroupQuestion::Kind::kText && !options_.with_text;
-        auto& row = tables_[kQuestionsFile];
-        row.text(id()).integer(seat).text(question.id).text(name_of(question.kind));
-        if (is_hidden) {
-          row.missing();
-        } else {
-          row.text(printable(answer->is_string() ? answer->get<std::string>() : answer->dump()));
-        }
-        row.end_row();
+        QuestionRow row{
+            .session = id(), .seat = seat, .question = question.id, .kind = std::string{name_of(question.kind)}};
+        if (!is_hidden) row.value = printable(answer->is_string() ? answer->get<std::string>() : answer->dump());
+        write_.add(tables_.questions, row);
       }
     }
   }
@@ -365,11 +386,15 @@ class Exporter {
         const auto seat = seat_in(past.lesson.period, m + 1);
         for (std::size_t t = 0; t < feedback.verdicts[m].size(); ++t) {
           const bool changed = !past.revised[m].empty() && past.revised[m][t] != past.answers[m][t];
-          auto& row = tables_[kDiscussionsFile];
-          row.text(id()).integer(past.lesson.period).integer(past.lesson.component + 1).integer(t + 1);
-          row.integer(seat == 0 ? std::nullopt : std::optional{static_cast<std::int64_t>(seat)}).integer(m + 1);
-          row.boolean(feedback.verdicts[m][t].correct).boolean(feedback.final_verdicts(m)[t].correct).boolean(changed);
-          row.end_row();
+          write_.add(tables_.discussions, {.session = id(),
+                                           .period = past.lesson.period,
+                                           .component = past.lesson.component + 1,
+                                           .test = t + 1,
+                                           .seat = seat == 0 ? std::nullopt : std::optional{seat},
+                                           .member = m + 1,
+                                           .correct = feedback.verdicts[m][t].correct,
+                                           .revised_correct = feedback.final_verdicts(m)[t].correct,
+                                           .changed = changed});
         }
       }
     }
@@ -385,13 +410,14 @@ class Exporter {
 
   void write_trial(std::size_t seat, const Lesson& lesson, const char* type, std::optional<bool> correct,
                    const std::vector<HalfSpace>& constraints) {
-    const auto dimension = study_->spec.num_features;
-    auto& row = tables_[kTrialsFile];
-    row.text(std::to_string(seat)).text(id()).text(atlas_.domain().id()).text("cl");
-    row.text(std::to_string(lesson.component + 1)).text(type);
-    row.text_or_missing(correct ? std::optional<std::string>{*correct ? "1" : "0"} : std::nullopt);
-    row.text(Json{{"constraints", to_json(constraints, dimension)}}.dump());
-    row.end_row();
+    TrialRow row{.user_id = std::to_string(seat),
+                 .group = id(),
+                 .domain = atlas_.domain().id(),
+                 .kc_id = std::to_string(lesson.component + 1),
+                 .interaction_type = type,
+                 .mdp_parameters = Json{{"constraints", to_json(constraints, study_->spec.num_features)}}.dump()};
+    if (correct) row.is_opt_response = *correct ? "1" : "0";
+    write_.add(tables_.trials, row);
   }
 
   void write_beliefs() {
@@ -399,15 +425,10 @@ class Exporter {
     for (const auto& point : detail["curves"]) {
       for (const auto& [name, mass] : point["p_bec"].items()) {
         constexpr std::string_view kMember{"member "};
-        auto& row = tables_[kBeliefsFile];
-        row.text(id()).integer(point["period"].get<std::size_t>()).text(name);
-        if (name.compare(0, kMember.size(), kMember) == 0) {
-          row.integer(static_cast<std::size_t>(std::stoul(name.substr(kMember.size()))));
-        } else {
-          row.missing();
-        }
-        row.real(mass.get<double>());
-        row.end_row();
+        BeliefRow row{
+            .session = id(), .period = point["period"].get<std::size_t>(), .belief = name, .p_bec = mass.get<double>()};
+        if (name.compare(0, kMember.size(), kMember) == 0) row.member = std::stoul(name.substr(kMember.size()));
+        write_.add(tables_.beliefs, row);
       }
     }
   }
@@ -450,16 +471,19 @@ class Exporter {
         }
       }
     }
-    auto& row = tables_[kEventsFile];
-    row.text(id()).integer(event.seq).integer(event.at_us).text(event.actor).text(event.type);
-    row.text(printable(body.dump()));
-    row.end_row();
+    write_.add(tables_.events, {.session = id(),
+                                .seq = event.seq,
+                                .at_us = event.at_us,
+                                .actor = event.actor,
+                                .type = event.type,
+                                .body = printable(body.dump())});
   }
 
   const std::shared_ptr<const LiveStudy>& study_;
   const Atlas& atlas_;
   const SessionExportOptions& options_;
-  Tables tables_;
+  ExportTables tables_;
+  Writers write_;
   const RoomHistory* history_ = nullptr;
 };
 
