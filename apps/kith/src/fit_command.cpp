@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/fit/accuracy.hpp"
+#include "kith/fit/answer_regions.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
@@ -57,7 +58,7 @@ ResponseLogs without_noise(ResponseLogs logs) {
 std::string likelihood_work_text(const ResponseLogs& logs, const ParameterGrid& grid, LikelihoodOptions options) {
   const auto threads = options.parallel.threads > 0 ? options.parallel.threads : std::thread::hardware_concurrency();
   const auto few = std::clamp<std::size_t>(threads, 1, logs.people.size());
-  ResponseLogs probe{.people = {}, .models = logs.models, .policy = logs.policy, .notes = {}};
+  ResponseLogs probe{.people = {}, .models = logs.models, .policy = logs.policy, .sample = {}, .notes = {}};
   for (std::size_t i = 0; i < few; ++i) probe.people.push_back(logs.people[i * logs.people.size() / few]);
   auto coarse = grid;
   const auto n = grid.abilities.size();
@@ -78,6 +79,19 @@ std::optional<std::vector<GridSearchGroup>> search_grid(const ResponseLogs& logs
   const auto table = log_likelihoods(logs, published_grid(), options);
   if (!table.complete) return std::nullopt;
   return grid_search(logs, table);
+}
+
+// Which weights give the answers of people, where no tables say it. False if it was interrupted.
+bool sample_paths(ResponseLogs& logs, const FitCommandOptions& options, AnswerDetail detail, Console& console) {
+  const auto num_notes = logs.notes.size();
+  Progress progress{options.progress, console};
+  const bool complete =
+      find_answer_regions(logs, {.detail = detail,
+                                 .seed = options.seed,
+                                 .parallel = {.threads = options.threads, .on_progress = progress.until_stopped()}});
+  progress.finish();
+  if (!console.quiet()) console.show({logs.notes.begin() + static_cast<std::ptrdiff_t>(num_notes), logs.notes.end()});
+  return complete;
 }
 
 void declare(OptionList& list, FitCommandOptions& options) {
@@ -144,11 +158,13 @@ int run(const FitCommandOptions& options, Console& console) {
     if (!report.complete) return interrupted("interrupted; nothing was written", console);
     return finish(options, to_json(report), text_of(report, console), console);
   }
-  const bool says_time = !console.quiet() && !imported.logs.people.empty();
+  auto logs = imported.logs;
+  if (!sample_paths(logs, options, detail, console)) return interrupted("interrupted; nothing was written", console);
+  const bool says_time = !console.quiet() && !logs.people.empty();
   if (options.method == "grid") {
-    const auto logs = without_noise(imported.logs);
-    if (says_time) console.info(likelihood_work_text(logs, published_grid(), how));
-    const auto groups = search_grid(logs, how);
+    const auto quiet_logs = without_noise(logs);
+    if (says_time) console.info(likelihood_work_text(quiet_logs, published_grid(), how));
+    const auto groups = search_grid(quiet_logs, how);
     progress.finish();
     if (!groups) return interrupted("interrupted; nothing was written", console);
     return finish(options, to_json(*groups), text_of(*groups, console), console);
@@ -159,11 +175,11 @@ int run(const FitCommandOptions& options, Console& console) {
   fit_options.num_types = options.types;
   fit_options.folds = options.folds;
   fit_options.parallel = parallel;
-  if (says_time) console.info(likelihood_work_text(imported.logs, grid_of(fit_options), how));
-  const auto report = fit_learners(imported.logs, fit_options);
+  if (says_time) console.info(likelihood_work_text(logs, grid_of(fit_options), how));
+  const auto report = fit_learners(logs, fit_options);
   progress.finish();
   if (!report.complete) return interrupted("interrupted; nothing was written", console);
-  return finish(options, to_json(report, imported.logs.notes), text_of(report, console), console);
+  return finish(options, to_json(report, logs.notes), text_of(report, console), console);
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ void describe(Identifiability& result) {
 class Fitting {
  public:
   Fitting(const ResponseLogs& logs, const FitOptions& options, const LikelihoodTable& table)
-      : logs_{logs}, options_{options}, surface_{table}, limits_{limits_of(logs, options)} {}
+      : logs_{logs}, options_{options}, table_{table}, surface_{table}, limits_{limits_of(logs, options)} {}
 
   FitReport run() {
     if (options_.num_types > 0) {
@@ -149,6 +149,7 @@ class Fitting {
     for (std::size_t k = 0; k < members_.size(); ++k) add_identifiability(k);
     compare_models();
     warn_of_noise();
+    describe_sample();
     report_.why_estimates_differ = kWhyTheyDiffer;
     return std::move(report_);
   }
@@ -229,6 +230,34 @@ class Fitting {
                                 " replicates the likelihood is noisy; more replicates make it surer");
   }
 
+  // Where answers were told apart by a sample of paths: how well, and how noisy the likelihood is at its largest.
+  void describe_sample() {
+    if (!logs_.sample) return;
+    const auto& sample = *logs_.sample;
+    report_.sentences.push_back("answers are told apart by " + std::to_string(sample.paths) + " paths of " +
+                                std::to_string(sample.weights) + " weights that people may hold; of the last " +
+                                std::to_string(sample.checked) + " weights " +
+                                figure(100.0 * static_cast<double>(sample.missed) /
+                                           static_cast<double>(std::max<std::size_t>(sample.checked, 1)),
+                                       2) +
+                                " % took a path that was not yet among them");
+    if (options_.replicates < 2) {
+      report_.sentences.push_back("the Monte-Carlo error is not known with a single replicate; give two or more");
+      return;
+    }
+    double sum = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < logs_.people.size(); ++i) {
+      const auto& row = table_.log_likelihood[i];
+      const auto best = static_cast<std::size_t>(std::max_element(row.begin(), row.end()) - row.begin());
+      sum += table_.standard_error[i][best];
+      largest = std::max(largest, table_.standard_error[i][best]);
+    }
+    report_.sentences.push_back("Monte-Carlo error of a person's log-likelihood at its largest: " +
+                                figure(sum / static_cast<double>(logs_.people.size()), 2) + " on average, at most " +
+                                figure(largest, 2) + " (standard error over " + std::to_string(options_.replicates) +
+                                " replicates)");
+  }
+
   void compare_models() {
     const auto folds = std::min(options_.folds, logs_.people.size());
     if (folds < 2) return;
@@ -252,6 +281,7 @@ class Fitting {
 
   const ResponseLogs& logs_;
   const FitOptions& options_;
+  const LikelihoodTable& table_;
   LikelihoodSurface surface_;
   PopulationLimits limits_;
   std::optional<MixtureFit> mixture_;

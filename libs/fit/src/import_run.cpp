@@ -102,11 +102,12 @@ class RunImport {
 
   void check_study() {
     const auto study_file = folder_ / "inputs" / "study.toml";
-    if (!atlas_->find_tables()) {
-      throw Error{{detail::fault("E0711",
-                                 "people are fitted in exact domains of three features only, where all that they could "
-                                 "answer is known",
-                                 folder_ / "inputs" / "domain.toml", 0)}};
+    if (any_kind_ && !atlas_->find_tables()) {
+      throw Error{
+          {detail::fault("E0711",
+                         "the kinds of people can be told only where all that they could answer is known: in "
+                         "exact, small domains of three features",
+                         folder_ / "inputs" / "domain.toml", 0, "fit abilities and gains, without --method kinds")}};
     }
     for (const auto& variant : study_.study->variants) {
       if (variant.learner_counterfactuals_self) {
@@ -194,11 +195,15 @@ class RunImport {
                });
   }
 
+  [[nodiscard]] std::size_t num_features() const { return atlas_->domain().num_features(); }
+
   // The half-spaces of a cell, or nothing after complaining.
   std::vector<HalfSpace> half_spaces(const std::string& file, const OpenRow& row, const std::string& column) {
-    const auto parsed = detail::parse_half_spaces(row.text(column).value_or(""));
+    const auto parsed = detail::parse_half_spaces(row.text(column).value_or(""), num_features());
     if (!parsed)
-      complain(file, row.line(), "E0707", "'" + column + "' does not hold half-spaces such as 1 0 -4;0 -1 2");
+      complain(file, row.line(), "E0707",
+               "'" + column + "' does not hold half-spaces, normals of " + std::to_string(num_features()) +
+                   " whole numbers each, such as 1 0 -4;0 -1 2");
     return parsed.value_or(std::vector<HalfSpace>{});
   }
 
@@ -246,7 +251,7 @@ class RunImport {
         static_cast<std::size_t>(start) >= domain.mdp(MdpIndex{static_cast<std::size_t>(mdp)}).num_states()) {
       complain(
           file, row.line(), "E0708",
-          "there is no start " + std::to_string(start) + " of MDP " + std::to_string(mdp) + " in inputs/domain.toml");
+          "there is no start " + std::to_string(start) + " of world " + std::to_string(mdp) + " in inputs/domain.toml");
       return std::nullopt;
     }
     return atlas_->index({MdpIndex{static_cast<std::size_t>(mdp)}, StateIndex{static_cast<std::size_t>(start)}});
@@ -262,9 +267,10 @@ class RunImport {
                       .covered = half_spaces(file, row, columns::kCovered),
                       .line = row.line()};
     if (const auto text = row.text(columns::kAnswer); text && !text->empty()) {
-      answered.answer = detail::parse_vector(*text);
+      answered.answer = detail::parse_counts(*text, num_features(), atlas_->domain().count_scale());
       if (!answered.answer) {
-        complain(file, row.line(), "E0707", "'answer' does not hold three feature counts such as 0 1 5");
+        complain(file, row.line(), "E0707",
+                 "'answer' does not hold " + std::to_string(num_features()) + " feature counts such as 0 1 5");
         return std::nullopt;
       }
     }
@@ -310,8 +316,10 @@ class RunImport {
     std::set<HalfSpace> possible;
     for (const auto& answered : answers) {
       const auto demo = answered.demo;
-      const auto facets = atlas_->tables().finite_region(demo).facets();
-      possible.insert(facets.begin(), facets.end());
+      if (const auto* tables = atlas_->find_tables()) {
+        const auto facets = tables->finite_region(demo).facets();
+        possible.insert(facets.begin(), facets.end());
+      }
       period.all_correct = period.all_correct && answered.correct;
       for (const auto& half_space : answered.covered) {  // once, however many test sets examined it: as Session does
         const bool is_new = std::find(period.taught.begin(), period.taught.end(), half_space) == period.taught.end();
@@ -333,6 +341,8 @@ class RunImport {
       return;
     }
     period.given.push_back({demo, *answered.answer});
+    period.given_right.push_back(answered.correct);
+    if (!atlas_->find_tables()) return;  // find_answer_regions() goes on
     const auto coverage = atlas_->tables().coverage_set(demo);
     const bool known = std::find(coverage.begin(), coverage.end(), *answered.answer) != coverage.end();
     if (detail_ == AnswerDetail::kPath && known) {

@@ -99,9 +99,9 @@ bool add_normals(const Json& value, std::vector<HalfSpace>& half_spaces) {
   if (!numbers) {
     return std::all_of(value.begin(), value.end(), [&](const Json& one) { return add_normals(one, half_spaces); });
   }
-  if (value.size() != 3) return false;
-  IntegerVector normal(3);
-  for (std::size_t k = 0; k < 3; ++k) {
+  if (value.size() < 2 || value.size() > IntegerVector::kMaxDimension) return false;
+  IntegerVector normal(value.size());
+  for (std::size_t k = 0; k < value.size(); ++k) {
     const double x = value[k].get<double>();
     if (!(std::abs(x) < 1e9) || std::abs(x - std::round(x)) > 1e-6) return false;
     normal[k] = std::llround(x);
@@ -118,9 +118,6 @@ class TrialImport {
     read();
     detail::throw_if_errors(logs_.notes);
     find_usual_finals();
-    KnownLearner model;
-    model.prior = Cone::intersection(std::vector{HalfSpace{IntegerVector{0, 0, -1}}}).value();  // actions cost
-    logs_.models.push_back(model);
     for (const auto& [key, participant] : participants_) add_person(key, participant);
     return std::move(logs_);
   }
@@ -159,13 +156,30 @@ class TrialImport {
                (nearest.empty() ? "known" : "did you mean '" + nearest + "'? Known") + ": " + listed_words(known));
       return;
     }
+    const auto domain = part_of_name(*row.text("domain"));
     auto person = part_of_name(*row.text("user_id"));
     if (const auto group = row.text("group"); group && !group->empty()) person = part_of_name(*group) + "/" + person;
-    auto& participant = participants_[{person, part_of_name(*row.text("domain"))}];
+    auto& participant = participants_[{person, domain}];
     if (participant.trials.empty()) participant.line = row.line();
     note_condition(row, participant);
     note_type(row, participant);
-    if (auto trial = trial_of(row, kind->second)) participant.trials.push_back(*std::move(trial));
+    auto trial = trial_of(row, kind->second);
+    if (!trial) return;
+    check_dimension(row, domain, *trial);
+    participant.trials.push_back(*std::move(trial));
+  }
+
+  // All constraints of a domain are about the same features.
+  void check_dimension(const OpenRow& row, const std::string& domain, const Trial& trial) {
+    for (const auto& half_space : trial.half_spaces) {
+      const auto known = num_features_.try_emplace(domain, half_space.dimension()).first->second;
+      if (half_space.dimension() == known) continue;
+      complain(row.line(), "E0707",
+               "a constraint has " + std::to_string(half_space.dimension()) + " numbers, those of this domain before " +
+                   std::to_string(known),
+               "give one number per feature of the domain");
+      return;
+    }
   }
 
   void note_condition(const OpenRow& row, Participant& participant) {
@@ -211,7 +225,7 @@ class TrialImport {
       if (!parameters.is_object() ||
           (parameters.contains("constraints") && !add_normals(parameters["constraints"], trial.half_spaces))) {
         complain(row.line(), "E0707",
-                 "mdp_parameters is no JSON object with a list of normals of three integers as "
+                 "mdp_parameters is no JSON object with a list of normals, 2 to 8 whole numbers each, as "
                  "'constraints'");
         return std::nullopt;
       }
@@ -267,8 +281,24 @@ class TrialImport {
     PersonLog log;
     log.id = name;
     log.type = participant.type;
+    log.model = model_of(key.second);
     fill(log, participant, feedback);
     logs_.people.push_back(std::move(log));
+  }
+
+  // The people of a domain know beforehand that actions, the last feature, cost something.
+  std::size_t model_of(const std::string& domain) {
+    const auto known = num_features_.find(domain);
+    const std::size_t n = known == num_features_.end() ? 3 : known->second;
+    const auto same = std::find_if(logs_.models.begin(), logs_.models.end(),
+                                   [&](const KnownLearner& model) { return model.prior.dimension() == n; });
+    if (same != logs_.models.end()) return static_cast<std::size_t>(same - logs_.models.begin());
+    IntegerVector cost(n);
+    cost[n - 1] = -1;
+    KnownLearner model;
+    model.prior = Cone::intersection(std::vector{HalfSpace{cost}}).value();
+    logs_.models.push_back(std::move(model));
+    return logs_.models.size() - 1;
   }
 
   void fill(PersonLog& log, const Participant& participant, bool has_feedback) {
@@ -314,6 +344,7 @@ class TrialImport {
   std::filesystem::path path_;
   std::map<Key, Participant> participants_;
   std::map<std::string, std::size_t> usual_finals_;
+  std::map<std::string, std::size_t> num_features_;  // per domain, of its constraints
   ResponseLogs logs_;
 };
 

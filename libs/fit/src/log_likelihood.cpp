@@ -13,6 +13,20 @@
 namespace kith {
 namespace {
 
+EvidenceForm evidence_form(const KnownLearner& model) {
+  const bool is_planned = model.atlas && !model.atlas->find_tables();
+  return is_planned || model.prior.dimension() != 3 ? EvidenceForm::kAsGiven : EvidenceForm::kMinimal;
+}
+
+void require_answer_regions(const ResponseLogs& logs) {
+  for (const auto& person : logs.people) {
+    for (const auto& period : person.periods) {
+      if (period.given.size() <= period.answers.size()) continue;
+      throw std::invalid_argument{"log_likelihoods: call find_answer_regions() first, as there are no tables of paths"};
+    }
+  }
+}
+
 // One run of the filter of one person, for all points of the grid.
 class Replay {
  public:
@@ -29,8 +43,9 @@ class Replay {
                          .ability_max = ability_max,
                          .ability_scale = ability_scale});
     }
+    const auto form = evidence_form(model);
     for (const auto& period : person.periods) {
-      answers_.emplace_back(period.possible, period.answers, period.chance);
+      answers_.emplace_back(period.possible, period.answers, period.chance, form);
     }
     log_likelihood.resize(grid.size());
     knowledge.resize(grid.size());
@@ -103,6 +118,21 @@ class Replay {
   std::vector<BayesianPerson> people_;   // shape [grid]
 };
 
+// Of log_mean(), by the spread of what it averages.
+double standard_error(const std::vector<double>& logs) {
+  const auto n = static_cast<double>(logs.size());
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0, squares = 0.0;
+  for (const double x : logs) {
+    const double share = std::exp(x - top);
+    sum += share;
+    squares += share * share;
+  }
+  if (logs.size() < 2) return 0.0;
+  const double mean = sum / n;
+  return std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1.0)) / mean;
+}
+
 double log_mean(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
@@ -141,6 +171,7 @@ LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& g
   if (!(options.slip >= 0.0 && options.slip <= 1.0)) {
     throw std::invalid_argument{"log_likelihoods: slip must lie in [0, 1]"};
   }
+  require_answer_regions(logs);
   std::vector<PriorCover> covers;
   covers.reserve(logs.models.size());
   for (const auto& model : logs.models) covers.emplace_back(model.prior, num_particles(model.parameters));
@@ -149,7 +180,7 @@ LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& g
   const std::size_t num_tasks = num_people * options.replicates;
   std::vector<std::vector<double>> log_likelihood(num_tasks);
   std::vector<std::vector<double>> knowledge(num_tasks);
-  LikelihoodTable table{.grid = grid, .log_likelihood = {}, .knowledge = {}};
+  LikelihoodTable table{.grid = grid, .log_likelihood = {}, .standard_error = {}, .knowledge = {}};
   table.complete = for_each_index(num_tasks, options.parallel, [&](std::size_t task) {
     const auto& person = logs.people[task % num_people];
     const auto random = RandomStream{options.seed}.split("fit").split(person.id).split(task / num_people);
@@ -164,12 +195,14 @@ LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& g
   for (std::size_t person = 0; person < num_people; ++person) {
     auto& row = table.log_likelihood.emplace_back(grid.size());
     auto& mass = table.knowledge.emplace_back(grid.size(), 0.0);
+    auto& error = table.standard_error.emplace_back(grid.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {
       for (std::size_t r = 0; r < runs.size(); ++r) {
         runs[r] = log_likelihood[r * num_people + person][i];
         mass[i] += knowledge[r * num_people + person][i] / static_cast<double>(runs.size());
       }
       row[i] = log_mean(runs);
+      error[i] = standard_error(runs);
     }
   }
   return table;

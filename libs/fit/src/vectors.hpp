@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,10 +11,14 @@
 
 namespace kith::detail {
 
-// "0 1 5": three integers; nothing if the text is anything else.
-[[nodiscard]] std::optional<IntegerVector> parse_vector(const std::string& text);
+// "0 1 5": so many integers; nothing if the text is anything else.
+[[nodiscard]] std::optional<IntegerVector> parse_vector(const std::string& text, std::size_t dimension);
+
+// "0 1.25 5", in units of 1 / scale; whole numbers only if the scale is 1.
+[[nodiscard]] std::optional<IntegerVector> parse_counts(const std::string& text, std::size_t dimension,
+                                                        std::int64_t scale);
 
 // "1 0 -4;0 -1 2": normals of half-spaces; an empty text is an empty list.
-[[nodiscard]] std::optional<std::vector<HalfSpace>> parse_half_spaces(const std::string& text);
+[[nodiscard]] std::optional<std::vector<HalfSpace>> parse_half_spaces(const std::string& text, std::size_t dimension);
 
 }  // namespace kith::detail

@@ -7,6 +7,7 @@
 #include "domain_texts.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/fit/answer_regions.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/fit/import_trials.hpp"
@@ -193,7 +194,7 @@ TEST(RunImport, RefusesLearnersOfOtherModels) {
   }
 }
 
-TEST(RunImport, RefusesDomainsWithoutTables) {
+TEST(RunImport, RefusesKindsOfPeopleWithoutTables) {
   const testing::ScratchFolder folder;
   const auto domain = folder.path() / "two.toml";
   write_file_atomically(domain,
@@ -202,7 +203,15 @@ TEST(RunImport, RefusesDomainsWithoutTables) {
                     "schema = \"kith.study/1\"\nid = \"two\"\ndomain = \"" + domain.string() +
                         "\"\nseed = 3\nreplicates = 2\n[design]\nstrategies = [\"common\"]\ncompositions = [\"NN\"]\n" +
                         kTypes);
-  EXPECT_EQ(import_fault(folder.path() / "run"), "E0711 domain.toml:0");
+  try {
+    (void)import_run_folder(folder.path() / "run", AnswerDetail::kPath, {}, PeopleRead::kAnyKind);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostics().front().id, "E0711");
+  }
+  auto logs = import_run_folder(folder.path() / "run", AnswerDetail::kPath);
+  ASSERT_TRUE(find_answer_regions(logs));
+  EXPECT_GT(logs.sample->paths, 0u);
 }
 
 TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {

@@ -1,6 +1,8 @@
 #include "kith/learners/answer_evidence.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "kith/geometry/cone.hpp"
 
@@ -15,11 +17,21 @@ std::optional<Cone> cone_of(std::span<const HalfSpace> possible, std::span<const
   return Cone::intersection(possible);
 }
 
+std::vector<HalfSpace> once_each(std::vector<HalfSpace> half_spaces) {
+  std::sort(half_spaces.begin(), half_spaces.end());
+  half_spaces.erase(std::unique(half_spaces.begin(), half_spaces.end()), half_spaces.end());
+  return half_spaces;
+}
+
 }  // namespace
 
 AnswerEvidence::AnswerEvidence(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers,
-                               double chance)
+                               double chance, EvidenceForm form)
     : is_empty_{answers.empty()}, chance_{chance} {
+  if (form == EvidenceForm::kAsGiven) {
+    keep_as_given(possible, answers);
+    return;
+  }
   auto cone = cone_of(possible, answers);
   if (!cone) {
     is_contradictory_ = true;
@@ -36,6 +48,19 @@ AnswerEvidence::AnswerEvidence(std::span<const HalfSpace> possible, std::span<co
     }
   }
   consistent_ = cone->minimal_set();
+}
+
+void AnswerEvidence::keep_as_given(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers) {
+  possible_ = once_each({possible.begin(), possible.end()});
+  consistent_ = possible_;
+  for (const auto& region : answers) {
+    if (region.inside) {
+      consistent_.insert(consistent_.end(), region.cone.begin(), region.cone.end());
+    } else {
+      outside_.push_back(region.cone);
+    }
+  }
+  consistent_ = once_each(std::move(consistent_));
 }
 
 AnswerEvidence::AnswerEvidence(const Atlas& atlas, std::span<const GivenAnswer> answers)

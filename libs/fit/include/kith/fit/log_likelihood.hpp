@@ -47,8 +47,10 @@ struct LikelihoodOptions {
 struct LikelihoodTable {
   ParameterGrid grid;
   std::vector<std::vector<double>> log_likelihood;  ///< Shape [people][grid].
-  std::vector<std::vector<double>> knowledge;       ///< Mass of the final belief in the policy's class, same shape.
-  bool complete = true;                             ///< False: stopped by on_progress; the rest is then unusable.
+  /// Monte-Carlo error of the same, from the spread over runs of the filter; 0 with a single run. Same shape.
+  std::vector<std::vector<double>> standard_error;
+  std::vector<std::vector<double>> knowledge;  ///< Mass of the final belief in the policy's class, same shape.
+  bool complete = true;                        ///< False: stopped by on_progress; the rest is then unusable.
 };
 
 /// Replays every person's sequence for every point of the grid, by the rules of the simulated learner:
@@ -61,7 +63,8 @@ struct LikelihoodTable {
 ///
 /// Points of the grid that lead to the same abilities so far share the filter, so that 500 points cost about 100 times
 /// one. Results do not depend on the number of threads.
-/// @throws std::invalid_argument unless replicates >= 1 and 0 <= slip <= 1.
+/// @throws std::invalid_argument unless replicates >= 1 and 0 <= slip <= 1, or if answers still need
+/// find_answer_regions().
 [[nodiscard]] LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& grid,
                                               const LikelihoodOptions& options);
 

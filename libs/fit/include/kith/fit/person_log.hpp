@@ -22,9 +22,10 @@ struct LoggedPeriod {
   bool all_correct = true;            ///< Which gain the feedback brings.
   bool feedback = true;               ///< Whether the person heard which answers were right.
   std::vector<HalfSpace> taught;      ///< By the feedback, at the changed ability.
-  // What people of other kinds need besides; see fit_kinds(). Only from run folders.
+  // What people of other kinds and find_answer_regions() need besides. Only from run folders.
   std::vector<StartIndex> shown;   ///< The demonstrations themselves.
   std::vector<GivenAnswer> given;  ///< The paths that were answered.
+  std::vector<bool> given_right;   ///< Whether they were right, shape [given].
   double minutes = 0.0;            ///< How long it took.
 };
 
@@ -48,12 +49,22 @@ struct PersonLog {
   std::size_t final_correct = 0;  ///< Of these.
 };
 
+/// How the answers of people were told apart where no tables say which paths are best for somebody; see
+/// find_answer_regions().
+struct PathSample {
+  std::size_t weights = 0;  ///< For which paths were planned.
+  std::size_t paths = 0;    ///< Different ones of all tests together.
+  std::size_t checked = 0;  ///< Weights of the last round, drawn after all others.
+  std::size_t missed = 0;   ///< Of these, the weights with a path that was not known before.
+};
+
 /// The people of some logs, in the order of the files, and everything worth saying about how they were read.
 struct ResponseLogs {
   std::vector<PersonLog> people;
   std::vector<KnownLearner> models;
-  std::vector<HalfSpace> policy;  ///< The behaviour equivalence class of the robot's policy; empty: unknown.
-  std::vector<Diagnostic> notes;  ///< Warnings: what was repaired, left out or doubtful.
+  std::vector<HalfSpace> policy;     ///< The behaviour equivalence class of the robot's policy; empty: unknown.
+  std::optional<PathSample> sample;  ///< Set by find_answer_regions().
+  std::vector<Diagnostic> notes;     ///< Warnings: what was repaired, left out or doubtful.
 };
 
 /// Which people a run folder may have.

@@ -20,6 +20,12 @@ struct AnswerRegion {
   bool inside = true;
 };
 
+/// How AnswerEvidence keeps half-spaces.
+enum class EvidenceForm {
+  kMinimal,  ///< As minimal sets.
+  kAsGiven,  ///< Each once. For many half-spaces in many dimensions, where minimal sets cost more than they save.
+};
+
 /// The answers that a person gave in one period, as a learner model rates them: which weights give exactly these
 /// answers, among the weights that give any.
 class AnswerEvidence {
@@ -27,7 +33,9 @@ class AnswerEvidence {
   /// @param possible  the weights that have an answer to every test; empty: all.
   /// @param answers  one region per answer; empty: the person did not answer.
   /// @param chance  probability of these answers by guessing, in [0, 1].
-  AnswerEvidence(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers, double chance);
+  /// @param form  kAsGiven does not find out whether the answers are contradictory.
+  AnswerEvidence(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers, double chance,
+                 EvidenceForm form = EvidenceForm::kMinimal);
 
   /// With paths: which weights give these answers, and, for people whose answers are not always the best path for some
   /// weights, the answers themselves. The atlas must outlive it. @pre the atlas has tables.
@@ -38,9 +46,9 @@ class AnswerEvidence {
   /// Whether no weights give these answers.
   [[nodiscard]] bool is_contradictory() const noexcept { return is_contradictory_; }
   [[nodiscard]] double chance() const noexcept { return chance_; }
-  /// The weights that have an answer to every test, as a minimal set.
+  /// The weights that have an answer to every test.
   [[nodiscard]] const std::vector<HalfSpace>& possible() const noexcept { return possible_; }
-  /// Those of them that lie in the cone of every answer with `inside`, as a minimal set.
+  /// Those of them that lie in the cone of every answer with `inside`.
   [[nodiscard]] const std::vector<HalfSpace>& consistent() const noexcept { return consistent_; }
   /// The cones of the other answers: weights in any of them give another answer.
   [[nodiscard]] const std::vector<std::vector<HalfSpace>>& outside() const noexcept { return outside_; }
@@ -50,6 +58,8 @@ class AnswerEvidence {
   [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
 
  private:
+  void keep_as_given(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers);
+
   bool is_empty_;
   bool is_contradictory_ = false;
   double chance_;
