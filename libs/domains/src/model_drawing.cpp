@@ -2,24 +2,33 @@
 #include "model_drawing.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <numeric>
+#include <string_view>
 
 #include "explicit_family.hpp"
+#include "kith/models/model_formats.hpp"
 
 namespace kith {
 namespace detail {
 namespace {
 
+constexpr std::size_t kMostColumns = 1000;
+
 class DrawingReader {
  public:
-  DrawingReader(const RawModel& model, TomlReport& report, ModelReport& model_report, DrawingPlan& plan)
+  DrawingReader(RawModel& model, TomlReport& report, ModelReport& model_report, DrawingPlan& plan)
       : model_{model}, report_{report}, model_report_{model_report}, plan_{plan} {}
 
   void read(TomlReader& drawing) {
     plan_.place = drawing.place();
-    read_thing(drawing, plan_.robot);
-    read_origin(drawing);
+    if (drawing.has("columns")) {
+      plan_.robot = numbered_cells();
+    } else {
+      read_thing(drawing, plan_.robot);
+      read_origin(drawing);
+    }
     plan_.has_walls = drawing.boolean("walls", Presence::kOptional).value_or(true);
     if (auto things = drawing.table("things", Presence::kOptional)) {
       for (const TomlEntry& entry : things->content().entries()) read_placed(entry);
@@ -63,6 +72,14 @@ class DrawingReader {
   void read_thing(TomlReader& table, DrawnThing& thing) {
     thing.x = variable(table, "x");
     thing.y = variable(table, "y");
+  }
+
+  // The columns and rows that add_numbered_cells() gave the states.
+  [[nodiscard]] DrawnThing numbered_cells() const {
+    DrawnThing robot;
+    robot.x = model_.variables.size() - 2;
+    robot.y = model_.variables.size() - 1;
+    return robot;
   }
 
   void read_origin(TomlReader& drawing) {
@@ -176,11 +193,75 @@ class DrawingReader {
                         "draw another symbol at " + cell_text(family_map, cell) + ", or correct the state");
   }
 
-  const RawModel& model_;
+  RawModel& model_;
   TomlReport& report_;
   ModelReport& model_report_;
   DrawingPlan& plan_;
 };
+
+// The number that a state is called by, as in "12" or "12 (end)"; nothing if it is called otherwise.
+std::optional<std::uint32_t> number_of(const RawState& state) {
+  const char* const begin = state.key.data();
+  const char* const end = begin + state.key.size();
+  std::uint32_t number = 0;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  const std::string_view rest{stop, static_cast<std::size_t>(end - stop)};
+  if (error != std::errc{} || !(rest.empty() || rest == " (end)")) return std::nullopt;
+  return number < kMaxModelStates ? std::optional{number} : std::nullopt;
+}
+
+// Gives states that are numbered row by row two more variables, their column and row from 1. The number of rows, or
+// nothing after saying what is wrong.
+std::optional<std::size_t> add_numbered_cells(RawModel& model, std::size_t columns, const TomlPlace& place,
+                                              TomlReport& report) {
+  std::size_t rows = 0;
+  std::vector<std::vector<std::int32_t>> all;
+  for (const RawMdp& mdp : model.mdps) {
+    auto& variables = all.emplace_back();
+    const auto width = model.variables.size();
+    for (std::size_t s = 0; s < mdp.states.size(); ++s) {
+      const auto number = number_of(mdp.states[s]);
+      if (!number) {
+        report.error("E0276", place, "'columns' needs states that are numbers, not '" + mdp.states[s].key + "'",
+                     "place the robot by variables of the states: x = \"NAME\", y = \"NAME\"");
+        return std::nullopt;
+      }
+      const auto first = mdp.variables.begin() + static_cast<std::ptrdiff_t>(s * width);
+      variables.insert(variables.end(), first, first + static_cast<std::ptrdiff_t>(width));
+      variables.push_back(static_cast<std::int32_t>(*number % columns) + 1);
+      variables.push_back(static_cast<std::int32_t>(*number / columns) + 1);
+      rows = std::max(rows, *number / columns + 1);
+    }
+  }
+  if (rows > kMostColumns) {
+    report.error("E0276", place, "'columns' makes a grid of " + std::to_string(rows) + " rows, more than 1000",
+                 "say how many states there are in a row");
+    return std::nullopt;
+  }
+  for (std::size_t m = 0; m < all.size(); ++m) model.mdps[m].variables = std::move(all[m]);
+  model.variables.insert(model.variables.end(), {"column", "row"});
+  return rows;
+}
+
+// A plain floor of numbered cells, where those in which every episode ends are marked.
+FamilyMap plain_floor(const RawModel& model, std::size_t columns, std::size_t rows, const TomlPlace& place) {
+  FamilyMap family_map;
+  family_map.is_picture = family_map.legend_is_sound = family_map.is_sound = true;
+  family_map.width = static_cast<int>(columns);
+  family_map.height = static_cast<int>(rows);
+  family_map.map_place = family_map.source_place = place;
+  Symbol end;
+  end.glyph = 'E';
+  end.content.terrain = "end";
+  family_map.symbols = {Symbol{}, end};
+  family_map.terrain_names = {"end"};
+  family_map.symbol_of.assign(columns * rows, 0);
+  family_map.group_of.assign(columns * rows, -1);
+  for (const RawState& state : model.mdps.front().states) {
+    if (state.terminal) family_map.symbol_of[*number_of(state)] = 1;
+  }
+  return family_map;
+}
 
 // Draws the states of one MDP.
 class MemberDrawer {
@@ -298,19 +379,34 @@ std::optional<std::pair<StateIndex, StateIndex>> find_twins(const Mdp& mdp, cons
 
 }  // namespace
 
-DrawingPlan read_drawing(TomlReader& file, TomlReader& drawing, const RawModel& model, NamedFiles& files,
+DrawingPlan read_drawing(TomlReader& file, TomlReader& drawing, RawModel& model, NamedFiles& files,
                          ModelReport& model_report) {
   DrawingPlan plan;
   TomlReport& report = file.report();
-  if (!file.has("map")) {
-    report.error("E0275", drawing.place(), "[model.drawing] places the robot on a map, but there is no [map]",
-                 "draw one: [map] with rows and [map.legend]");
+  const auto know_all = [&] {
     for (const TomlEntry& entry : drawing.content().entries()) drawing.know(entry.key);
-    return plan;
+  };
+  std::optional<std::size_t> rows;
+  const auto columns = drawing.integer("columns", Presence::kOptional, {1, kMostColumns});
+  if (columns) {
+    rows = add_numbered_cells(model, static_cast<std::size_t>(*columns), drawing.content().find("columns")->place(),
+                              report);
   }
-  plan.family_map = read_picture(file, files, model_report);
-  if (!plan.family_map.is_sound) {
-    for (const TomlEntry& entry : drawing.content().entries()) drawing.know(entry.key);
+  if (!file.has("map") && rows) {
+    plan.family_map = plain_floor(model, static_cast<std::size_t>(*columns), *rows, drawing.place());
+  } else if (!file.has("map")) {
+    if (!drawing.has("columns")) {
+      report.error(
+          "E0275", drawing.place(), "[model.drawing] places the robot on a map, but there is no [map]",
+          "draw one: [map] with rows and [map.legend]; or, if states are numbered row by row, give columns = N");
+    }
+    know_all();
+    return plan;
+  } else {
+    plan.family_map = read_picture(file, files, model_report);
+  }
+  if (!plan.family_map.is_sound || (drawing.has("columns") && !rows)) {
+    know_all();
     return plan;
   }
   DrawingReader reader{model, report, model_report, plan};

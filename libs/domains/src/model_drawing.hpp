@@ -57,9 +57,10 @@ struct DrawingPlan {
   TomlPlace place;                    // of [model.drawing]
 };
 
-// Reads [model.drawing] and, as a picture, [map]. Reports everything that is wrong, also states that are off the map;
-// then the result is not complete.
-[[nodiscard]] DrawingPlan read_drawing(TomlReader& file, TomlReader& drawing, const RawModel& model, NamedFiles& files,
+// Reads [model.drawing] and, as a picture, [map]. Where `columns` says that states are numbered row by row, they get
+// their column and row as variables, and the map may be left out. Reports everything that is wrong, also states that
+// are off the map; then the result is not complete.
+[[nodiscard]] DrawingPlan read_drawing(TomlReader& file, TomlReader& drawing, RawModel& model, NamedFiles& files,
                                        ModelReport& model_report);
 
 // Warns of states that look alike.

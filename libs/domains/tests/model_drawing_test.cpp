@@ -54,6 +54,16 @@ TEST(ModelDrawing, ChangesNothingElse) {
             drawn.dissimilarity({kFirst, StateIndex{0}}, {kFirst, StateIndex{1}}));
 }
 
+TEST(ModelDrawing, NumberedStatesDrawThemselves) {
+  const Domain cliff = load_domain(std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml");
+  const GridMap picture = picture_of(cliff);
+  EXPECT_EQ(picture.width(), 12);
+  EXPECT_THAT(picture.draw(kFirst, std::nullopt),
+              ElementsAre("............", "............", "............", "...........E"));
+  const auto start = cliff.initial_state(kFirst);  // number 36, at the left of the lowest row
+  EXPECT_EQ(picture.state(kFirst, start).robot, (Cell{1, 1}));
+}
+
 TEST(ModelDrawing, OfAMapIsTheMap) {
   const Domain domain = load_domain("item-delivery");
   const GridMap picture = picture_of(domain);

@@ -114,6 +114,8 @@ std::vector<ModelCase> model_cases() {
       // drawings
       {"drawing_without_map", csv, toml, "[[feature]]", "[model.drawing]\nx = \"x\"\ny = \"x\"\n[[feature]]",
        "E0275 domain.toml 9:1", "there is no [map]", "rows and [map.legend]"},
+      {"drawing_of_states_without_numbers", csv, toml, "[[feature]]", "[model.drawing]\ncolumns = 2\n[[feature]]",
+       "E0276 domain.toml 10:11", "needs states that are numbers, not 'bank'", "x = "},
       {"drawing_of_unknown_variable", drawn, toml, "x = \"x\"", "x = \"column\"", "E0276 domain.toml 16:5",
        "no variable 'column'", "known: x, y, dog, held"},
       {"drawing_with_one_origin", drawn, toml, "[0, 0]", "[0]", "E0276 domain.toml 18:10", "x and the y", "[0, 0]"},
