@@ -12,6 +12,7 @@
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/parallel.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/fit/answer_regions.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/present/audit_report.hpp"
@@ -103,8 +104,8 @@ std::string fit(const std::vector<std::string>& logs, const std::string& method,
   if (logs.empty()) throw py::value_error{"there are no logs"};
   Watch watch;
   return wait_for(watch, on_progress, [&] {
-    const auto imported =
-        import_logs({logs.begin(), logs.end()}, answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict);
+    const auto detail = answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict;
+    auto imported = import_logs({logs.begin(), logs.end()}, detail);
     if (!imported.accuracy.empty()) {
       if (method == "grid")
         throw Error{ErrorKind::kUsage, "these logs do not tell what people saw", Remedy::kLikelihoodMethod};
@@ -114,6 +115,7 @@ std::string fit(const std::vector<std::string>& logs, const std::string& method,
                                      watch.tell(done, total);
                                      return !watch.stop;
                                    }};
+    if (!find_answer_regions(imported.logs, {.detail = detail, .seed = seed, .parallel = parallel})) throw Stopped{};
     if (method == "grid") {
       auto people = imported.logs;
       for (auto& model : people.models) model.parameters.set("process_noise", 0.0);
