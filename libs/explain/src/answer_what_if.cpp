@@ -2,6 +2,8 @@
 #include "answerer.hpp"
 
 #include <algorithm>
+#include <set>
+#include <vector>
 
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
@@ -11,7 +13,7 @@ namespace kith::detail {
 void Answerer::what_if() {
   const bool removes = std::any_of(question_.conditions.begin(), question_.conditions.end(),
                                    [](const auto& condition) { return !condition.present; });
-  auto base = question_.world.value_or(removes ? last_world() : MdpIndex{0});
+  auto base = question_.world ? *question_.world : world_to_change(removes);
   auto world = world_with(base);
   std::string elsewhere;
   if (!question_.world && !question_.is_about_a_step()) {
@@ -72,6 +74,31 @@ Answerer::Effects Answerer::worlds_it_matters_in(MdpIndex base, MdpIndex world) 
     effects.world = found->second;
   }
   return effects;
+}
+
+MdpIndex Answerer::world_to_change(bool removes) const {
+  const auto n = domain_.num_mdps();
+  const auto groups = domain_.optional_groups();
+  std::set<std::vector<bool>> family;
+  for (MdpIndex m{0}; m.value() < n; ++m) family.insert(domain_.present_things(m));
+  for (std::size_t i = 0; i < n; ++i) {
+    const MdpIndex base{removes ? n - 1 - i : i};
+    auto variant = domain_.present_things(base);
+    bool changes_all = true;
+    for (const auto& condition : question_.conditions) {
+      bool changes = false;
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        const auto& cells = groups[g].cells;
+        if (groups[g].name != condition.thing || variant[g] == condition.present) continue;
+        if (condition.cell && std::find(cells.begin(), cells.end(), *condition.cell) == cells.end()) continue;
+        variant[g] = condition.present;
+        changes = true;
+      }
+      changes_all = changes_all && changes;
+    }
+    if (changes_all && family.contains(variant)) return base;
+  }
+  return removes ? last_world() : MdpIndex{0};
 }
 
 MdpIndex Answerer::world_with(MdpIndex base) const {

@@ -152,6 +152,9 @@ class Answerer {
   // --- what if ----------------------------------------------------------------
   void what_if();
 
+  // The world that a question changes which names none: that with the most things in it, or the barest, among those
+  // that can be changed as it asks.
+  [[nodiscard]] MdpIndex world_to_change(bool removes) const;
   // The world that is like `base` except for what the question asks. @throws kith::Error (E1108) if there is none.
   [[nodiscard]] MdpIndex world_with(MdpIndex base) const;
 

@@ -255,6 +255,14 @@ TEST(AskOfAModel, SpeaksOfNoTriesWhereNothingIsLeftToChance) {
   }
 }
 
+// Of listed worlds, the last one may lack what is asked about, and not every change leads to one of them.
+TEST(AskWhatIf, ChangesAWorldThatCanBeChanged) {
+  const std::string hospital = std::string{KITH_SOURCE_DIR} + "/libs/explain/tests/questions/hospital.toml";
+  EXPECT_THAT(ask("what if there is no people?", hospital).question,
+              HasSubstr("What happens in world 1 (morning round)"));
+  EXPECT_THAT(ask("what if there is people?", hospital).question, HasSubstr("What happens in world 0 (night)"));
+}
+
 TEST(AskOfAModel, TakesNamesOfStatesWithoutQuotes) {
   const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
   const auto quoted = ask("what at 'on the bank at a1' in world 0", pond);
