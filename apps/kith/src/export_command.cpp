@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 MdpIndex mdp_of(const Domain& domain, const ExportOptions& options) {
   if (options.mdp.empty() && domain.num_mdps() > 1) {
-    refuse(fmt::format("the domain has {} MDPs; say which one with --mdp N, 0 to {}", domain.num_mdps(),
+    refuse(fmt::format("the domain has {} worlds; say which one with --mdp N, 0 to {}", domain.num_mdps(),
                        domain.num_mdps() - 1));
   }
   return options.mdp.empty() ? MdpIndex{0} : mdp_called(domain, options.mdp);
@@ -35,7 +35,7 @@ MdpIndex mdp_of(const Domain& domain, const ExportOptions& options) {
 void declare(OptionList& list, ExportOptions& options) {
   list.domain(options.domain).required();
   list.word("--to", options.format, "FORMAT", model_format_names(), "The format").required();
-  list.text("--mdp", options.mdp, "MDP", "Number or name of the MDP (default: the only one)");
+  list.text("--mdp", options.mdp, "MDP", "Number or name of the world (default: the only one)");
   list.text("-o,--out", options.out, "FILE",
             "File to write (default: '-', stdout), or with prism what the names of all files begin with");
   list.flag("--yes", options.yes, "Replace existing files");

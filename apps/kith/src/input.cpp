@@ -103,7 +103,7 @@ MdpIndex mdp_called(const Domain& domain, const std::string& number_or_name) {
   }
   const bool is_number = number_or_name.find_first_not_of("0123456789") == std::string::npos;
   const auto shown = is_number ? number_or_name : "'" + number_or_name + "'";
-  auto message = fmt::format("there is no MDP {}: they are numbered 0 to {}", shown, domain.num_mdps() - 1);
+  auto message = fmt::format("there is no world {}: they are numbered 0 to {}", shown, domain.num_mdps() - 1);
   if (!names.empty() && names.size() <= kMost) message += ", or called " + listed(names);
   refuse(message);
 }

@@ -6,6 +6,7 @@
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/present/json.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/toml/document.hpp"
@@ -30,7 +31,8 @@ Verdict check_domain(const InputText& input) {
   Verdict verdict{"domain", "", "", reading.diagnostics};
   if (reading.domain) {
     verdict.id = reading.domain->id();
-    verdict.content = fmt::format("{} MDPs, {} start states", reading.domain->num_mdps(), reading.domain->num_starts());
+    verdict.content = fmt::format("{}, {}", counted(reading.domain->num_mdps(), "world"),
+                                  counted(reading.domain->num_starts(), "start state"));
   }
   return verdict;
 }

@@ -234,13 +234,14 @@ TEST(Validate, AcceptsStudiesAndDomains) {
   const std::string root = KITH_SOURCE_DIR;
   const auto ran = run_kith({"validate", root + "/studies/paper.toml", root + "/domains/item_delivery.toml"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("study 'paper' is valid (300 teams"), HasSubstr("64 MDPs, 9312 start states")));
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("study 'paper' is valid (300 teams"), HasSubstr("64 worlds, 9312 start states")));
 }
 
 TEST(Validate, KnowsWhatComesWithKith) {
   const auto ran = run_kith({"validate", "rescue-floor", "paper"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("rescue-floor: domain 'rescue-floor' is valid (16 MDPs"),
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("rescue-floor: domain 'rescue-floor' is valid (16 worlds"),
                              HasSubstr("paper: study 'paper' is valid (300 teams")));
   EXPECT_EQ(run_kith({"validate", "rescue-flor"}).code, 5);
 }

@@ -19,15 +19,15 @@ TEST(FirstHour, WorldsGoByTheirNames) {
             run_kith({"inspect", kHospital, "--mdp", "2"}).out);
   const auto wrong = run_kith({"inspect", kHospital, "--mdp", "noon"});
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, AllOf(HasSubstr("no MDP 'noon'"), HasSubstr("night, morning round")));
-  EXPECT_THAT(run_kith({"teach", kHospital, "--group", "NP"}).out, HasSubstr("MDP "));
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("no world 'noon'"), HasSubstr("night, morning round")));
+  EXPECT_THAT(run_kith({"teach", kHospital, "--group", "NP"}).out, HasSubstr("world "));
   EXPECT_THAT(run_kith({"inspect", kHospital, "--json"}).out, HasSubstr("morning round"));
 }
 
 TEST(FirstHour, InspectSaysWhatMattersAndWhatWorks) {
   const auto out = run_kith({"inspect", kHospital}).out;
   EXPECT_THAT(out, AllOf(HasSubstr("What matters: "), HasSubstr("crossing a wet floor costs"),
-                         HasSubstr("What works with this robot"), HasSubstr("not kith fit")));
+                         HasSubstr("What works with this robot"), HasSubstr("not kith fit --method kinds")));
   EXPECT_THAT(run_kith({"inspect", "item-delivery"}).out, HasSubstr("  kith fit and kith audit"));
 }
 

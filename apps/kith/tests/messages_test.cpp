@@ -10,7 +10,7 @@ namespace {
 TEST(Messages, SayInPlainWordsWhatIsWrongWithAValue) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
       {{"validate"}, "kith validate needs FILE"},
-      {{"inspect", "item-delivery", "--mdp", "-1"}, "there is no MDP '-1': they are numbered 0 to 63"},
+      {{"inspect", "item-delivery", "--mdp", "-1"}, "there is no world '-1': they are numbered 0 to 63"},
       {{"inspect", "item-delivery", "--color", "nevr"}, "did you mean 'never'?"},
       {{"teach", "item-delivery", "--seed", "-1"}, "--seed must be an integer, 0 or more, not '-1'"},
       {{"teach", "item-delivery", "--strategy", "jont"}, "did you mean 'joint'?"},

@@ -32,7 +32,7 @@ class Model : public ::testing::Test {
 TEST_F(Model, IsValidAndShown) {
   const auto checked = run_kith({"validate", scratch_ / "icy_crossing.toml"});
   EXPECT_EQ(checked.code, 0) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("domain 'icy-crossing' is valid (3 MDPs, 45 start states)"));
+  EXPECT_THAT(checked.out, HasSubstr("domain 'icy-crossing' is valid (3 worlds, 45 start states)"));
   const auto shown = run_kith({"inspect", scratch_ / "icy_crossing.toml", "--show", "map,policy"});
   if (shown.code == 0) {
     EXPECT_THAT(shown.out,
@@ -135,13 +135,13 @@ TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
 TEST_F(Model, OfGymnasiumIsReadWithItsRewardsAsWeights) {
   const auto ran = run_kith({"validate", std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("(1 MDPs, 37 start states)"));
+  EXPECT_THAT(ran.out, HasSubstr("(1 world, 37 start states)"));
 }
 
 TEST_F(Model, IsExported) {
   const auto text = run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "gym-json"});
   EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_EQ(Json::parse(text.out).at("title"), "icy-crossing, MDP 1 (wet ice)");
+  EXPECT_EQ(Json::parse(text.out).at("title"), "icy-crossing, world 1 (wet ice)");
   const auto ran =
       run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet"});
   EXPECT_EQ(ran.code, 0) << ran.err;
@@ -156,7 +156,7 @@ TEST_F(Model, IsExported) {
 TEST_F(Model, IsExportedOnlyAsItCanBe) {
   const auto ice = scratch_ / "icy_crossing.toml";
   EXPECT_THAT(run_kith({"export", ice, "--to", "prism"}).err, HasSubstr("say which one with --mdp N, 0 to 2"));
-  EXPECT_THAT(run_kith({"export", ice, "--to", "prism", "--mdp", "3"}).err, HasSubstr("there is no MDP 3"));
+  EXPECT_THAT(run_kith({"export", ice, "--to", "prism", "--mdp", "3"}).err, HasSubstr("there is no world 3"));
   EXPECT_THAT(run_kith({"export", ice, "--to", "prism", "--mdp", "0"}).err, HasSubstr("-o PREFIX"));
   EXPECT_THAT(run_kith({"export", ice, "--to", "jani", "--mdp", "0"}).err, HasSubstr("one of: prism, gym-json"));
 }

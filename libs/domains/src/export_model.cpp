@@ -59,7 +59,7 @@ double ExportView::loss() const {
 std::string ExportView::title() const {
   if (domain_.num_mdps() == 1) return domain_.id();
   const std::string name = domain_.describe_world(m_);
-  return domain_.id() + ", MDP " + std::to_string(m_.value()) + (name.empty() ? "" : " (" + name + ")");
+  return domain_.id() + ", world " + std::to_string(m_.value()) + (name.empty() ? "" : " (" + name + ")");
 }
 
 std::string number_text(double number) {

@@ -60,7 +60,7 @@ ActionsJudge::ActionsJudge(const Domain& domain, MdpIndex mdp) : domain_{&domain
   auto plan = plan_exactly(*mdp_, domain.weights().integer);
   if (!plan.solution) {
     throw Error{ErrorKind::kInfeasible,
-                "domain " + domain.id() + " has no finite optimum in MDP " + std::to_string(mdp.value())};
+                "domain " + domain.id() + " has no finite optimum in world " + std::to_string(mdp.value())};
   }
   solution_ = *std::move(plan.solution);
 }

@@ -71,7 +71,7 @@ StartIndex Scene::needed_start(MdpIndex world) const {
   if (start) return *start;
   if (question_.state) {
     fail(text_, question_.spot, "E1104", "the robot is never in state '" + *question_.state + "' in " + name_of(world),
-         "name another MDP: 'in world N'");
+         "name another world: 'in world N'");
   }
   fail(text_, question_.spot, "E1104",
        "the robot is never " +

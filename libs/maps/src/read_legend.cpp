@@ -112,7 +112,8 @@ class LegendReader {
   }
 
   void report_bad_name(const TomlValue& value, const std::string& text) {
-    report_.error("E0225", value.place(), "'" + text + "' cannot be a name", "use letters, digits, '_' and '-'");
+    report_.error("E0225", value.place(), "'" + text + "' cannot be a name",
+                  "use letters, digits, '_' and '-', as in 'quiet-hours'");
   }
 
   void check(const Symbol& symbol) {

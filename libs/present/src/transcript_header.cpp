@@ -53,7 +53,7 @@ class HeaderWriter {
   void pictures() {
     line();
     if (!domain_.drawing()) {
-      line("MDP n is one of the model's MDPs; start m is one of its states. Paths are lists of actions and states.");
+      line("World n is one of the model's MDPs; start m is one of its states. Paths are lists of actions and states.");
       return;
     }
     line(
@@ -62,11 +62,12 @@ class HeaderWriter {
         "acts without moving).");
     out_ += legend(domain_, 2);
     if (!domain_.map()) {
-      line("  MDP n is one of the model's MDPs; start m is one of its states.");
+      line("  world n is one of the model's MDPs; start m is one of its states.");
       return;
     }
     line(
-        "  MDP n is a variant of the map (n says which optional things are there); start m is one of its states: where "
+        "  world n is a variant of the map (n says which optional things are there); start m is one of its states: "
+        "where "
         "the "
         "robot, the items and the stations are.");
   }

@@ -134,7 +134,7 @@ class TranscriptWriter {
   }
 
   [[nodiscard]] std::string start_text(StartId id) const {
-    auto text = fmt::format("{}, start {}", mdp_text(domain_, id.mdp), id.start.value());
+    auto text = fmt::format("{}, start {}", world_text(domain_, id.mdp), id.start.value());
     const auto map = domain_.drawing();
     if (!map) return text + ": " + domain_.state_name(id.mdp, id.start);
     const auto state = map->state(id.mdp, id.start);

@@ -181,11 +181,11 @@ ExportTables::ExportTables(const SessionExportOptions& options)
 
 std::vector<TableDescription> export_tables(const SessionExportOptions& options) {
   const ExportTables all{options};
+  std::vector tables{all.sessions.description(), all.participants.description(), all.periods.description(),
+                     all.tests.description(),    all.keys.description(),         all.questions.description(),
+                     all.trials.description(),   all.beliefs.description(),      all.events.description()};
   if (options.with_discussions) tables.push_back(all.discussions.description());
   return tables;
-  return {all.sessions.description(), all.participants.description(), all.periods.description(),
-          all.tests.description(),    all.keys.description(),         all.questions.description(),
-          all.trials.description(),   all.beliefs.description(),      all.events.description()};
 }
 
 }  // namespace kith
