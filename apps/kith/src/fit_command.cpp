@@ -84,7 +84,7 @@ std::optional<std::vector<GridSearchGroup>> search_grid(const ResponseLogs& logs
 // Which weights give the answers of people, where no tables say it. False if it was interrupted.
 bool sample_paths(ResponseLogs& logs, const FitCommandOptions& options, AnswerDetail detail, Console& console) {
   const auto num_notes = logs.notes.size();
-  Progress progress{options.progress, console};
+  Progress progress{options.progress, console, "people"};
   const bool complete =
       find_answer_regions(logs, {.detail = detail,
                                  .seed = options.seed,
@@ -148,7 +148,7 @@ int run(const FitCommandOptions& options, Console& console) {
   }
 
   watch_signals();
-  Progress progress{options.progress, console};
+  Progress progress{options.progress, console, "replays"};
   const ParallelOptions parallel{.threads = options.threads, .on_progress = progress.until_stopped()};
   const LikelihoodOptions how{.replicates = options.replicates, .seed = options.seed, .parallel = parallel};
   if (asks_for_kinds) {

@@ -12,6 +12,7 @@
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/bracket.hpp"
 #include "kith/explain/expected_ways.hpp"
+#include "kith/explain/target.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
@@ -19,6 +20,7 @@
 #include "kith/present/inspect_svg.hpp"
 #include "kith/present/legend.hpp"
 #include "kith/present/picture.hpp"
+#include "planning_input.hpp"
 #include "work_notice.hpp"
 
 namespace kith::cli {
@@ -38,8 +40,10 @@ constexpr std::size_t kListLength = 20;  // without --all
 // to teach, but still something to see.
 class Inspection {
  public:
-  Inspection(const Domain& domain, const Atlas* atlas, MdpIndex mdp, bool all, const Console& console)
-      : domain_{domain}, atlas_{atlas}, mdp_{mdp}, all_{all}, console_{console} {}
+  // `name` is the domain as it was asked for, `text` its file.
+  Inspection(const Domain& domain, const std::string& name, const std::string& text, const Atlas* atlas, MdpIndex mdp,
+             bool all, const Console& console)
+      : domain_{domain}, name_{name}, text_{text}, atlas_{atlas}, mdp_{mdp}, all_{all}, console_{console} {}
 
   std::string text(const std::vector<std::string>& parts) {
     out_ += title();
@@ -68,6 +72,7 @@ class Inspection {
     if (part == "kc") components();
     if (part == "demos") demos();
     if (part == "tests") tests();
+    if (part == "times") times();
     if (part == "counterfactuals") counterfactuals();
   }
 
@@ -76,8 +81,8 @@ class Inspection {
 
   [[nodiscard]] std::string title() const {
     return console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n" +
-           fmt::format("{}, {}, {}\n", counted(domain_.num_mdps(), "MDP"), counted(domain_.num_starts(), "start state"),
-                       counted(domain_.num_features(), "feature"));
+           fmt::format("{}, {}, {}\n", counted(domain_.num_mdps(), "world"),
+                       counted(domain_.num_starts(), "start state"), counted(domain_.num_features(), "feature"));
   }
 
   // With the legend of the symbols; without a map the size of the model.
@@ -192,14 +197,41 @@ class Inspection {
       const auto& weights = domain_.weights().raw;
       if (same.low || same.high) {
         const Ratio own{domain_.weights().integer[k], std::abs(domain_.weights().integer[reference])};
-        out_ += fmt::format("  {} (here {:.4g} times what {} weighs)\n", bracket_in_words(domain_, same),
-                            std::abs(own.value()), unit);
+        out_ += fmt::format("  {} (here it {} {:.4g} times what {} weighs)\n", bracket_in_words(domain_, same),
+                            weights[k] < 0 ? "costs" : "is worth", std::abs(own.value()), unit);
       } else {
         out_ += "  " + domain_.wording(k).one + " has any weight: no world tests it, and nothing about it is taught\n";
-        out_ += fmt::format("    kith find {} '{} {} something' looks for a world that would\n", domain_.id(),
-                            domain_.wording(k).one, weights[k] < 0 ? "costs" : "is worth");
+        out_ += would_matter(k, weights[k] < 0 ? -1 : 1);
       }
     }
+  }
+
+  // A world with one cell changed in which the robot shows that feature k costs something or is worth something.
+  [[nodiscard]] std::string would_matter(std::size_t k, int sign) const {
+    IntegerVector normal(domain_.num_features());
+    normal[k] = sign;
+    const auto made = make_world(*atlas_, text_, HalfSpace{normal}, Purpose::kTeach, {.max_changes = 1});
+    const auto command =
+        fmt::format("kith find {} '{} {} something'", name_, domain_.wording(k).one, sign < 0 ? "costs" : "is worth");
+    if (!made) return fmt::format("    {} looks for a world that would\n", command);
+    std::vector<std::string> changes;
+    for (const auto& change : made->changes) changes.push_back(change_in_words(*domain_.map(), change));
+    return fmt::format("    {} would, if {}: {} shows it\n", world_text(domain_, made->base), listed(changes), command);
+  }
+
+  // How long things take with this robot on this machine, by doing some of them.
+  void times() {
+    heading("How long things take with this robot here");
+    auto spec = study_of("paper", {}).study->variants.front();
+    spec.domain = domain_.id();
+    spec.num_features = domain_.num_features();
+    spec.count_scale = domain_.count_scale();
+    spec.strategies = {strategy_named("common")};
+    spec.compositions = {"NNP"};
+    constexpr std::size_t kTeams = 300;
+    out_ += fmt::format("  {} of two novices and a proficient learner, strategy common\n",
+                        work_text(*atlas_, spec, 0, kTeams));
+    out_ += "  kith fit, power and calibrate say how long they take before they begin\n";
   }
 
   // Said here, not in the eighth hour.
@@ -208,13 +240,14 @@ class Inspection {
     out_ += "  lessons, questions, studies and live sessions\n";
     const bool has_tables = atlas_->find_tables() != nullptr;
     const bool is_solid = domain_.num_features() == 3;
-    out_ += has_tables && is_solid
-                ? "  kith fit and kith audit, and beliefs drawn on a sphere\n"
-                : fmt::format(
-                      "  kith audit; not kith fit, which takes exact domains of three features (this one has {}{})\n",
-                      counted(domain_.num_features(), "feature"), domain_.is_exact() ? "" : " and chance");
+    if (has_tables && is_solid) {
+      out_ += "  kith fit and kith audit, and beliefs drawn on a sphere\n";
+    } else {
+      out_ += "  kith audit; kith fit, which tells answers apart by paths that it samples and says how noisy that is\n";
+      out_ += "  not kith fit --method kinds, which takes exact, small domains of three features\n";
+    }
     if (!is_solid) out_ += "  beliefs and regions are drawn for pairs of features, areas are estimates\n";
-    out_ += "  kith study STUDY --dry-run says how long a study takes and how much space it needs\n";
+    out_ += fmt::format("  kith inspect {} --show times measures how long a study takes here\n", name_);
   }
 
   void components() {
@@ -222,7 +255,8 @@ class Inspection {
     std::size_t number = 0;
     for (const auto& component : atlas_->knowledge_components()) {
       const auto mdps = std::count(component.uses_mdp.begin(), component.uses_mdp.end(), true);
-      out_ += fmt::format("  {}. {} ({} MDPs{}), {}\n", ++number, component.name, mdps,
+      out_ += fmt::format("  {}. {} ({}{}), {}\n", ++number, component.name,
+                          counted(static_cast<std::size_t>(mdps), "world"),
                           component.masked.empty() ? "" : ", without " + masked_names(domain_, component),
                           area_text({component.area_sr, component.area_error}));
       constraints(atlas_->constraints().half_spaces(component.constraints), "     ");
@@ -334,6 +368,8 @@ class Inspection {
   }
 
   const Domain& domain_;
+  const std::string& name_;
+  const std::string& text_;
   const Atlas* atlas_;
   MdpIndex mdp_;
   bool all_;
@@ -343,9 +379,10 @@ class Inspection {
 
 void declare(OptionList& list, InspectOptions& options) {
   list.domain(options.domain).required();
-  list.words("--show", options.show, "PARTS", {"map", "policy", "bec", "kc", "demos", "tests", "counterfactuals"},
+  list.words("--show", options.show, "PARTS",
+             {"map", "policy", "bec", "kc", "demos", "tests", "counterfactuals", "times"},
              "What to show, separated by commas");
-  list.text("--mdp", options.mdp, "MDP", "Number or name of the MDP to show (default: the last, with everything)");
+  list.text("--mdp", options.mdp, "MDP", "Number or name of the world to show (default: the last, with everything)");
   list.flag("--all", options.all, "Do not shorten long lists");
   list.text("--svg", options.svg, "DIR", "Write pictures to this folder: map, policy, region, coverage");
   list.json();
@@ -354,6 +391,7 @@ void declare(OptionList& list, InspectOptions& options) {
 int run(const InspectOptions& options, Console& console) {
   const WorkNotice notice{console, "planning " + options.domain};
   const auto domain = load_domain(options.domain);
+  const auto text = options.domain == "-" ? std::string{} : read_named(options.domain).text;
   const auto mdp = options.mdp.empty() ? MdpIndex{domain.num_mdps() - 1} : mdp_called(domain, options.mdp);
   std::optional<const Atlas> atlas;
   if (domain.num_features() > 1) atlas.emplace(domain);
@@ -374,7 +412,8 @@ int run(const InspectOptions& options, Console& console) {
                      : inspection_json(domain);
       },
       [&] {
-        return Inspection{domain, atlas ? &*atlas : nullptr, mdp, options.all, console}.text(options.show);
+        return Inspection{domain, options.domain, text, atlas ? &*atlas : nullptr, mdp, options.all, console}.text(
+            options.show);
       });
   if (!atlas) console.warning("what can be taught is not shown: with a single feature there is nothing to weigh");
   return 0;

@@ -61,7 +61,7 @@ std::string work_text(const Atlas& atlas, const StudySpec& spec, std::size_t thr
   (void)run_teams(atlas, probe, addresses, {.threads = threads, .on_progress = stopped});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const double seconds = took.count() * static_cast<double>(teams) / static_cast<double>(addresses.size());
-  return fmt::format("simulating {} teams takes about {}", teams, duration_text(seconds));
+  return fmt::format("simulating {} teams takes {}{}", teams, seconds < 1.0 ? "" : "about ", duration_text(seconds));
 }
 
 TargetSet targets_of(const std::string& file, const StudyText& study) {
