@@ -37,6 +37,7 @@ let browser, server, origin;
 class Store {
   statements = [];
   states = new Map();
+  trouble = [];
   isDown = false;
 
   answer(request, url, body) {
@@ -64,15 +65,25 @@ const kLearningSystem = `<!doctype html><title>A learning system</title><script 
 const around = (lesson) => `<!doctype html><title>A survey</title><iframe src="${lesson}" width="1000" height="800"></iframe>
 <script>window.told = []; addEventListener('message', ({ data }) => window.told.push(data));</script>`;
 
+// What the page does wrong is said at the end of the test.
+function answerOfStore(request, url, body) {
+  try {
+    return store.answer(request, url, body);
+  } catch (error) {
+    store.trouble.push(error.message);
+    return [400, {}];
+  }
+}
+
 function serve(request, response, body) {
   const url = new URL(request.url, 'http://here');
   const send = (status, type, content) => response.writeHead(status, { 'Content-Type': type }).end(content);
   if (url.pathname === '/system.html') return send(200, 'text/html', kLearningSystem);
   if (url.pathname === '/survey.html') return send(200, 'text/html', around(`${origin}/framed.html`));
-  if (url.pathname === '/scorm12.js') return send(200, 'text/javascript', readFileSync(require.resolve('scorm-again/dist/scorm12.min.js')));
+  if (url.pathname === '/scorm12.js') return send(200, 'text/javascript', readFileSync(join(values.modules, 'node_modules/scorm-again/dist/scorm12.min.js')));
   if (url.pathname === '/lesson.html' || url.pathname === '/framed.html') return send(200, 'text/html; charset=utf-8', readFileSync(join(folder, url.pathname)));
   if (url.pathname === '/favicon.ico') return send(204, 'image/png', '');
-  const [status, content] = store.answer(request, url, body);
+  const [status, content] = answerOfStore(request, url, body);
   return send(status, 'application/json', typeof content === 'string' ? content : JSON.stringify(content));
 }
 
@@ -145,7 +156,7 @@ describe('a package for learning systems', () => {
       assert.equal(await value('cmi.core.score.raw'), '100');
     });
     assert.ok(done.suspend_data.length <= kRoom, `${done.suspend_data.length} characters`);
-    assert.match(done.core.session_time, /^\d{4}:\d{2}:\d{2}\.\d{2}$/);
+    assert.match(done.core.session_time, /^\d{2,4}:\d{2}:\d{2}\.\d{2}$/);
     console.log(`suspend data: ${left.suspend_data.length} characters in the middle, ${done.suspend_data.length} at the end`);
   });
 
@@ -185,11 +196,12 @@ describe('a package for learning systems', () => {
       const reader = new Reader(context, await context.newPage(), address(name));
       reader.expects.push(/404/);
       await reader.open();
+      assert.deepEqual(store.trouble, []);
       await body(reader);
       const last = () => store.statements[store.statements.length - 1].verb.display.en;
-      await reader.page.goto(`${origin}/favicon.ico`).catch(() => undefined);
+      await reader.page.goto('about:blank');
       await until(() => last() === 'terminated');
-      assert.deepEqual(reader.trouble, []);
+      assert.deepEqual([...store.trouble, ...reader.trouble], []);
       await context.close();
     };
     let before;

@@ -178,7 +178,7 @@ const kActs = {
 describe('a lesson in Firefox', () => {
   let browser;
   before(() => {
-    writeFileSync(join(folder, 'rtl.json'), JSON.stringify({ lang: 'en', dir: 'rtl', strings: {} }));
+    writeFileSync(join(folder, 'rtl.json'), JSON.stringify({ lang: 'he', dir: 'rtl', strings: { 'intro.title': 'What this is about' } }));
     const words = ['lesson', 'item-delivery', '--set', 'group.language="rtl.json"', '-o', 'lesson.html'];
     execFileSync(values.kith, words, { cwd: folder, encoding: 'utf8' });
   });

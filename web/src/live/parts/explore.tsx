@@ -4,7 +4,7 @@ import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { kUnit } from '../../shared/board/geometry';
 import type { Legend } from '../../shared/board/legend';
 import { closedAt, played } from '../../shared/board/repeats';
-import type { Frame, Place, PlayBoard } from '../../shared/board/types';
+import type { Frame, Path, Place, PlayBoard } from '../../shared/board/types';
 import { BoardPane, Things, useLegend } from '../../shared/play/board_pane';
 import { Brackets } from '../../shared/play/brackets';
 import { countsOf, Ledger } from '../../shared/play/ledger';
@@ -90,7 +90,7 @@ export function Explore({ explore, connection }: { explore: Shown; connection: C
             {['', ...put].map((symbol) => (
               <label>
                 <input type="radio" name="explore-tool" checked={tool === symbol} onChange={() => setTool(symbol)} />
-                {symbol === '' ? t('explore.move') : legend.parts(symbol).length === 0 ? t('explore.clear') : t('explore.put', { name: nameOf(legend, symbol) })}
+                {symbol === '' ? t('explore.move') : legend.parts(symbol).length === 0 ? t('explore.clear') : t('explore.put', { name: capitalised(nameOf(legend, symbol)) })}
               </label>
             ))}
           </fieldset>
@@ -219,7 +219,7 @@ function Grid({ asked, result, legend, put, tool, onAsk }: GridProps): JSX.Eleme
         isSmall
         isBare
         {...(isDrawn ? { closedAt: closedAt(path) } : {})}
-        {...(isDrawn && other && result.differs_at !== null ? { other: played(other), decisive: { frame: result.differs_at ?? 0 } } : {})}
+        {...(isDrawn && other ? { other: played(other), decisive: decisiveAt(path, result.differs_at ?? 0) } : {})}
       />
       {box && (
         <div
@@ -266,6 +266,11 @@ function Grid({ asked, result, legend, put, tool, onAsk }: GridProps): JSX.Eleme
       )}
     </div>
   );
+}
+
+function decisiveAt({ frames }: Path, frame: number): { frame: number; cell?: Place } {
+  const cell = frames[frame]?.robot;
+  return { frame, ...(cell ? { cell } : {}) };
 }
 
 const pixels = ({ left, top, width, height }: Box): Record<string, string> => ({
