@@ -178,6 +178,27 @@ describe('a lesson in a file', () => {
     });
   });
 
+  it('teaches models as CSV, and chooses the lesson that the program chooses', async () => {
+    kith('lesson', join(here, '../../domains/gallery/frozen_lake.toml'), '-o', join(folder, 'lake.html'));
+    await withReader('lake.html', {}, async (reader) => {
+      await reader.consent();
+      await reader.at('What this is about');
+      await reader.button('Continue').click();
+      await reader.at('Try the controls');
+      await reader.drive(['right', 'down', 'left', 'up', 'right', 'down', 'left', 'up']);
+      await reader.page.getByText('You can continue whenever you like.').waitFor();
+      await reader.button('Continue').click();
+      await until(() => reader.view.stage === 'watch');
+      if (values.screenshots) {
+        await reader.page.waitForSelector('.drive-area, .player');
+        await reader.page.screenshot({ path: join(values.screenshots, 'lake-watch.png'), fullPage: true });
+      }
+      const log = join(folder, 'lake.json');
+      writeFileSync(log, JSON.stringify(await reader.log()));
+      assert.match(kith('session', 'import', log, '-o', join(folder, 'lake')), /replayed \d+ events/);
+    });
+  });
+
   it('shows texts as texts, whatever is in them', async () => {
     const corpus = [
       '<img src=x onerror=window.hacked=1>',
@@ -202,8 +223,8 @@ describe('a lesson in a file', () => {
     kith('lesson', join(folder, 'evil.toml'), ...options, '-o', join(folder, 'evil.html'));
     await withReader('evil.html', {}, async (reader) => {
       const look = async () => {
-        const found = await reader.page.evaluate(() => ({ hacked: window.hacked, images: document.querySelectorAll('img, iframe, script[src], #page script, #page style').length }));
-        assert.deepEqual(found, { images: 0 });
+        const found = await reader.page.evaluate(() => ({ hacked: window.hacked ?? null, images: document.querySelectorAll('img, iframe, script[src], #page script, #page style').length }));
+        assert.deepEqual(found, { hacked: null, images: 0 });
       };
       for (const stage of ['check', 'watch', 'predict', 'feedback', 'questions', 'debrief']) {
         await look();

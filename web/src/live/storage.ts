@@ -1,11 +1,12 @@
-// What this tab keeps across a reload. A browser that refuses storage loses nothing but that.
+// What this tab keeps across a reload. A browser that refuses storage loses it with a reload, and nothing else.
 import type { DriveStore, Kept } from '../shared/play/drive';
 
 const kPrefix = 'kith.';
+const unkept = new Map<string, string>(); // what the browser refused to keep
 
 export function recall<T>(key: string): T | null {
   try {
-    const text = sessionStorage.getItem(kPrefix + key);
+    const text = unkept.get(key) ?? sessionStorage.getItem(kPrefix + key);
     return text === null ? null : (JSON.parse(text) as T);
   } catch {
     return null;
@@ -13,10 +14,12 @@ export function recall<T>(key: string): T | null {
 }
 
 export function keep(key: string, value: unknown): void {
+  const text = JSON.stringify(value);
   try {
-    sessionStorage.setItem(kPrefix + key, JSON.stringify(value));
+    sessionStorage.setItem(kPrefix + key, text);
+    unkept.delete(key);
   } catch {
-    // full or not allowed
+    unkept.set(key, text); // full or not allowed
   }
 }
 
@@ -24,6 +27,7 @@ export function keep(key: string, value: unknown): void {
 export const driveStore: DriveStore = { recall: () => recall<Kept>('drive'), keep: (kept) => keep('drive', kept) };
 
 export function forget(key: string): void {
+  unkept.delete(key);
   try {
     sessionStorage.removeItem(kPrefix + key);
   } catch {

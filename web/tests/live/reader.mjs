@@ -34,6 +34,7 @@ export class Reader extends Person {
 
   // Lessons in a file ask for a guess first.
   async watch() {
+    await this.page.waitForSelector('.drive-area, .player');
     const skip = this.button('Watch without a guess');
     if (await skip.isVisible()) await skip.click();
     await super.watch();
