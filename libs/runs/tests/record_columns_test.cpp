@@ -25,6 +25,7 @@ std::string file_of(columns::Declared<TeamRecord>) { return "teams.csv"; }
 std::string file_of(columns::Declared<LearnerRecord>) { return "learners.csv"; }
 std::string file_of(columns::Declared<PeriodRecord>) { return "periods.csv"; }
 std::string file_of(columns::Declared<ResponseRecord>) { return "responses.csv"; }
+std::string file_of(columns::Declared<DiscussionRecord>) { return "discussions.csv"; }
 std::string file_of(columns::Declared<DemonstrationRecord>) { return "demonstrations.csv"; }
 std::string file_of(columns::Declared<ProgressRecord>) { return "progress.csv"; }
 std::string file_of(columns::Declared<ExamRecord>) { return "exam.csv"; }
@@ -129,6 +130,7 @@ Study full_study() {
   spec.estimates = spec.beliefs = true;
   spec.forecast_sessions = 10;
   spec.grouping = Grouping::kByType;
+  spec.group.discussion.choice.model = &discussion_models().back();
   return study;
 }
 
@@ -209,7 +211,7 @@ TEST(RecordColumns, EveryLineIsKeptByTheJournal) {
 TEST(RecordColumns, AnotherLayoutHasAnotherNumber) {
   const MarkedTeam marked;
   const auto bytes = encode_team(marked.team, kMarkKey);
-  EXPECT_EQ(std::pair(static_cast<int>(bytes.front()), bytes.size()), std::pair(8, std::size_t{541}));
+  EXPECT_EQ(std::pair(static_cast<int>(bytes.front()), bytes.size()), std::pair(9, std::size_t{558}));
 }
 
 }  // namespace

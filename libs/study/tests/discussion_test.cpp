@@ -33,7 +33,7 @@ max_periods = 3
   return parse_study(text, "talk.toml");
 }
 
-std::map<std::string, std::string> tables_of(const Study& study) {
+std::map<std::string, std::string> tables_with(const Study& study) {
   TeachingCache cache{testing::item_delivery()};
   TeamAddress address;
   address.composition = "NNP";
@@ -73,7 +73,7 @@ TEST(StudiesThatTalk, NameWhatIsWrong) {
 TEST(StudiesThatTalk, HaveATableOfTheirOwnAndNoOtherColumns) {
   const auto talks = talking_study("[group.discussion]\nmodel = \"truth-wins\"\nconvinces = 1.0\n");
   const auto silent = talking_study("");
-  const auto with = tables_of(*talks.study), without = tables_of(*silent.study);
+  const auto with = tables_with(*talks.study), without = tables_with(*silent.study);
   EXPECT_EQ(without.count("discussions.csv"), 0u);
   ASSERT_EQ(with.count("discussions.csv"), 1u);
   EXPECT_EQ(with.size(), without.size() + 1);

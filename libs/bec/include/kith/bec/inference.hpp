@@ -63,7 +63,7 @@ struct WeightInference {
 /// @throws std::invalid_argument unless the policy has the domain's shape.
 /// @throws kith::Error (kInfeasible): E0341 if the best weights explain less than half of what the robot does, or no
 /// more than they would of one that acts at random (which is sure to 95 %, by [hoeffding1963]); E0342 if
-/// all weights explain everything; E0343 if no start is left; E0344 if no weights have a finite optimum.
+/// all weights explain everything; E0343 if no start is left.
 [[nodiscard]] WeightInference infer_weights(const Domain& domain, const ObservedPolicy& policy);
 
 }  // namespace kith
