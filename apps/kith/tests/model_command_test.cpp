@@ -180,7 +180,7 @@ class Delivery : public ::testing::Test {
 TEST_F(Delivery, IsTaughtInWords) {
   const auto ran = run_kith({"teach", scratch_ / "delivery.toml", "--group", "N", "--seed", "1"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Paths are lists"), HasSubstr("-> robot")));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("lists of actions and states"), HasSubstr("-> robot")));
   EXPECT_THAT(ran.out, Not(HasSubstr("bare map")));
   const auto json = Json::parse(run_kith({"inspect", scratch_ / "delivery.toml", "--show", "demos", "--json"}).out);
   EXPECT_THAT(json.at("demos").at(0).at("start").at("name").get<std::string>(), HasSubstr("robot at ("));

@@ -191,17 +191,17 @@ class InferredTable {
   void remove_starts(std::vector<Member>& members, TomlReport& report) {
     const std::string hint = "'kith infer' writes this table; run it again if the map or the model has changed";
     for (const Starts& list : lists_) {
-      const auto family_map = static_cast<std::size_t>(list.numbers.front());
-      if (family_map >= members.size())
-        return report.error("E0318", list.place, "there is no world " + std::to_string(family_map), hint);
-      auto& starts = members[family_map].starts;
+      const auto world = static_cast<std::size_t>(list.numbers.front());
+      if (world >= members.size())
+        return report.error("E0318", list.place, "there is no world " + std::to_string(world), hint);
+      auto& starts = members[world].starts;
       for (std::size_t i = 1; i < list.numbers.size(); ++i) {
         const StateIndex start{static_cast<std::size_t>(list.numbers[i])};
         const auto at = std::lower_bound(starts.begin(), starts.end(), start);
         if (at == starts.end() || *at != start) {
           return report.error(
               "E0318", list.place,
-              "nothing can start in state " + std::to_string(start.value()) + " of world " + std::to_string(family_map),
+              "nothing can start in state " + std::to_string(start.value()) + " of world " + std::to_string(world),
               hint);
         }
         starts.erase(at);

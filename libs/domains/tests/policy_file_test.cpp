@@ -85,11 +85,11 @@ TEST(PolicyFile, ReadsAnAgentsChoicesAndProbabilities) {
 
 TEST(PolicyFile, FindsStatesOfSeveralWorldsByKeyAndByName) {
   const auto start = ice().initial_state(MdpIndex{1});
-  const auto family_map = ice().world_name(MdpIndex{1});
+  const auto world = ice().world_name(MdpIndex{1});
   const auto action = ice().action_names().at(ice().mdp(MdpIndex{1}).choices(start).front().action.value());
   for (const auto& state : {ice().state_key(MdpIndex{1}, start), ice().state_name(MdpIndex{1}, start)}) {
     const auto reading =
-        parse_policy("world,state,action\n" + family_map + ",\"" + state + "\"," + action + "\n", "p.csv", ice());
+        parse_policy("world,state,action\n" + world + ",\"" + state + "\"," + action + "\n", "p.csv", ice());
     ASSERT_TRUE(reading.policy) << error_of(reading);
     EXPECT_TRUE(reading.policy->is_seen[1][start.value()]);
     EXPECT_EQ(std::accumulate(reading.policy->is_seen[0].begin(), reading.policy->is_seen[0].end(), 0), 0);

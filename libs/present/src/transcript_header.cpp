@@ -66,9 +66,7 @@ class HeaderWriter {
       return;
     }
     line(
-        "  world n is a variant of the map (n says which optional things are there); start m is one of its states: "
-        "where "
-        "the "
+        "  world n is the map with some of its optional things (n says which); start m is one of its states: where the "
         "robot, the items and the stations are.");
   }
 

@@ -51,12 +51,16 @@ TEST(TeamCodec, GivesEveryRecordBack) {
   }
 }
 
-// The layout before sessions could end as skipped had a flag in the place of the status.
-TEST(TeamCodec, ReadsRecordsOfThePreviousLayout) {
+// Layout 8 had no discussions. The one before sessions could end as skipped had a flag in the place of the status.
+TEST(TeamCodec, ReadsRecordsOfEarlierLayouts) {
   for (auto team : teams(RecordLevel::kPeriod)) {
     for (const auto status : {SessionStatus::kComplete, SessionStatus::kMaxPeriods}) {
       team.status = status;
       std::string content{unseal_record(team.address.team, encode_team(team, kKey), kKey).value()};
+      content.pop_back();  // the number of discussions, which came later
+      content.front() = 8;
+      EXPECT_TRUE(decode_team(team.address, seal_record(team.address.team, content, kKey), kKey));
+
       content.front() = 7;
       content.at(2 + team.seed_address.size()) = status == SessionStatus::kComplete ? 1 : 0;
       const auto again = decode_team(team.address, seal_record(team.address.team, content, kKey), kKey);

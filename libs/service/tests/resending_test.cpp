@@ -172,7 +172,8 @@ const std::vector<Kind>& kinds_of_facilitators() {
   return kKinds;
 }
 
-// Every kind of message that there is, so that a new one is not forgotten.
+// Every kind of message that there is, so that a new one is not forgotten. This study has neither discussions nor
+// worlds to explore; the tests of rooms send those.
 TEST(Resending, HasAllKindsOfMessages) {
   for (const bool is_facilitator : {false, true}) {
     std::set<std::string> listed, allowed;
@@ -181,6 +182,7 @@ TEST(Resending, HasAllKindsOfMessages) {
     for (const auto& permission : permissions()) {
       const std::string name{permission.name};
       if (name == "hello" || name == "beat" || name.find(' ') != std::string::npos) continue;
+      if (name == "discuss" || name == "explore") continue;
       if (is_facilitator ? permission.facilitator : permission.participant) allowed.insert(name);
     }
     EXPECT_EQ(listed, allowed);

@@ -407,7 +407,7 @@ TEST(StudyFile, ReadsAndWritesHowGroupsOfPeopleAreTaught) {
   EXPECT_THAT(group.consent_text, ElementsAre("I agree."));
   EXPECT_THAT(group.people, ElementsAre(1u, 3u));
   EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kReplaceFromPool, 5, 2, 1, DropoutPolicy::kEndGroup}));
-  EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 0, 4, 5, 6}));
   EXPECT_EQ(group.screening, (GroupScreening{3, 0.25}));
   EXPECT_EQ(group.screens, (GroupScreens{true, true}));
   EXPECT_EQ(group.high_types, "N");
