@@ -3,7 +3,6 @@ import { render, type JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { App } from '../live/app';
 import { Button } from '../live/parts/ui';
-import { keep } from '../live/storage';
 import { download } from '../shared/download';
 import { loadTexts, t } from '../shared/texts';
 import { installTheme } from '../shared/theme';
@@ -114,7 +113,6 @@ async function begin(): Promise<void> {
   useTransport(server);
   // For pages around this one and for tests: what has happened, and the table of moves of a world.
   Object.assign(window, { kithLesson: { log: () => server.export(), world: (key: string) => server.world(key) } });
-  keep('token', 'lesson-file');
   await loadTexts();
   const skip = document.querySelector('.skip');
   if (skip) skip.textContent = t('page.skip');

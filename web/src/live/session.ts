@@ -1,4 +1,5 @@
 // Who this tab is: a token from the link's fragment, kept in this tab only.
+import { transport } from '../shared/transport';
 import { forget, keep, recall } from './storage';
 
 const pattern = /^[A-Za-z0-9_-]{8,200}$/;
@@ -14,8 +15,10 @@ export function codeOfLink(): string {
   return inFragment ?? new URLSearchParams(location.search).get('code') ?? '';
 }
 
-// The token of the link, else of this tab. The landing page alone asks before it goes back to a session.
+// The token of the link, else of this tab. The landing page alone asks before it goes back to a session. A lesson in a
+// file is for whoever opens it, whatever its address says and the browser keeps.
 export function knownToken(): { token: string | null; isOfLink: boolean } {
+  if (transport().isLocal) return { token: 'lesson-file', isOfLink: true };
   const ofLink = tokenOfLink();
   if (ofLink) {
     keep('token', ofLink);
