@@ -179,7 +179,10 @@ Verification verify_run(const fs::path& folder, const StudyReading& reading, con
     const auto bytes = outcome.record ? encode_team(*outcome.record, journal.key()) : std::string{};
     const std::lock_guard lock{mutex};
     ++result.checked;
-    if (bytes != journal.find(team)) {
+    // Records of earlier programs have an earlier layout.
+    const auto stored = journal.find(team);
+    const auto kept = stored ? decode_team(outcome.address, *stored, journal.key()) : std::nullopt;
+    if (!kept || bytes != encode_team(*kept, journal.key())) {
       result.mismatches.push_back(mismatch("E0640", journal.path(),
                                            describe_team(study, outcome.address) + " does not come out the same again",
                                            "the program differs or this machine is faulty; run kith doctor"));
