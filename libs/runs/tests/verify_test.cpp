@@ -63,6 +63,23 @@ TEST_F(VerifyTest, FindsTheSameBytesAgain) {
   EXPECT_EQ(verify(0.01).checked, 1u);
 }
 
+// A run of an earlier program, whose records had no discussions.
+TEST_F(VerifyTest, ComparesWhatRecordsOfAnEarlierLayoutSay) {
+  const auto written = Journal::read(folder_ / kJournalFile);
+  const auto current = written.find(5).value();
+  std::string content{unseal_record(5, current, written.key()).value()};
+  content.pop_back();
+  content.front() = 8;
+  {
+    auto journal = Journal::open(folder_ / kJournalFile, written.identity());
+    const JournalEntry entry{5, seal_record(5, content, written.key())};
+    journal->write(std::span{&entry, 1});
+    journal->close();
+  }
+  ASSERT_NE(Journal::read(folder_ / kJournalFile).find(5), current);
+  EXPECT_THAT(ids(), IsEmpty());
+}
+
 TEST_F(VerifyTest, NamesATeamThatComesOutDifferently) {
   const auto written = Journal::read(folder_ / kJournalFile);
   auto record = decode_team(team_address(*quick_study().study, 5), *written.find(5), written.key());
