@@ -16,11 +16,10 @@ Answer answer_of_majority(const Discussion& discussion, std::size_t test) {
     const auto same =
         static_cast<std::size_t>(std::count_if(discussion.members.begin(), discussion.members.end(),
                                                [&](const Discussant& other) { return other.answers[test] == answer; }));
+    if (same < votes) continue;
     is_tied = same == votes;
-    if (same > votes) {
-      most = answer;
-      votes = same;
-    }
+    most = answer;
+    votes = same;
   }
   return is_tied ? std::nullopt : most;
 }

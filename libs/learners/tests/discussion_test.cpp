@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "item_delivery.hpp"
@@ -133,6 +134,39 @@ TEST(Majority, IsFollowedUnlessThereIsATie) {
   EXPECT_EQ(tied[0], std::vector<Answer>{b});
   EXPECT_EQ(tied[1], std::vector<Answer>{a});
   EXPECT_EQ(after(choice, {a, b, c}, kTest)[1], std::vector<Answer>{b});
+}
+
+// Whatever the group answered, and in whatever order: the answer that more gave than any other, else everybody's own.
+TEST(Majority, IsThatOfACount) {
+  TeachingCache cache{item_delivery()};
+  auto group = group_of(cache, {1, 2, 3, 4, 5});
+  ASSERT_TRUE(group.session->propose(cache));
+  const auto& model = model_named("majority");
+  const ParameterValues values{model.parameters};
+  for (std::size_t votes = 0; votes < 4 * 4 * 4 * 4 * 4; ++votes) {  // of five people, for one of three answers or none
+    Discussion discussion{cache.behaviours(), std::span{group.session->lesson().tests}.first(1), 1, {}};
+    std::map<std::int64_t, int> counts;
+    std::size_t rest = votes;
+    for (const auto& learner : group.learners) {
+      const auto vote = static_cast<std::int64_t>(rest % 4);
+      rest /= 4;
+      const Answer answer = vote == 0 ? Answer{} : Answer{IntegerVector{vote, 0, 1}};
+      if (answer) ++counts[vote];
+      discussion.members.push_back({learner.get(), {answer}, RandomStream{0}});
+    }
+    std::vector<std::int64_t> first;  // the answers that most gave
+    for (const auto& [vote, count] : counts) {
+      const auto others = [&, &n = count](const auto& other) { return other.second > n; };
+      if (std::none_of(counts.begin(), counts.end(), others)) first.push_back(vote);
+    }
+
+    const auto revised = model.revise(values, discussion);
+    for (std::size_t i = 0; i < revised.size(); ++i) {
+      const auto expected =
+          first.size() == 1 ? Answer{IntegerVector{first.front(), 0, 1}} : discussion.members[i].answers[0];
+      ASSERT_EQ(revised[i].at(0), expected) << votes << ", member " << i + 1;
+    }
+  }
 }
 
 TEST(TruthWins, AsOftenAsItSays) {

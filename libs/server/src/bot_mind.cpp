@@ -49,8 +49,9 @@ BotAct decision_on(const Json& shown, const std::string& stage) {
   Json choice;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
     const auto n = predictions[i].value("n", std::size_t{0});
+    if (n < most) continue;
     is_tied = n == most;
-    if (n <= most) continue;
+    if (is_tied) continue;
     most = n;
     choice = predictions[i].value("own", false) ? Json{} : Json(i);
   }
