@@ -71,8 +71,7 @@ std::string help_text(const std::vector<Command>& commands, bool full) {
     text +=
         "\nenvironment: KITH_THREADS=2 is `--threads 2` where that is not given,\n"
         "KITH_MEMORY=8G is the most memory that kith uses, NO_COLOR turns colours off.\n"
-        "Nothing else in the\n"
-        "environment changes what a command does.\n\n";
+        "Nothing else in the environment changes what a command does.\n\n";
     text += kExitCodes;
   }
   return text + "\n`kith COMMAND -h` for a command's options, `kith COMMAND --help` for details.\n";

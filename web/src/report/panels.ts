@@ -12,7 +12,7 @@ export interface Grid {
   min: number; // least width of a panel, px
   max?: number; // most columns
   gap?: number; // between columns, px
-  first?: number; // panels before these in the same figure
+  first?: number | undefined; // panels before these, where the figure has others too
   rowGap?: number; // between rows, px: axis, title of the next panel
 }
 
@@ -27,7 +27,7 @@ export function panels(count: number, width: number, grid: Grid, make: (i: numbe
   const concat: Json[] = [];
   for (let i = 0; i < count; ++i) {
     const panel = make(i, { firstColumn: i % columns === 0, lastRow: i + columns >= count, width: Math.max(inner, 80) });
-    const isLettered = typeof panel.title === 'string' && count + (grid.first ?? 0) > 1;
+    const isLettered = typeof panel.title === 'string' && (count > 1 || grid.first !== undefined);
     concat.push(isLettered ? { ...panel, title: `${letter((grid.first ?? 0) + i)}  ${String(panel.title)}` } : panel);
   }
   return {

@@ -16,6 +16,7 @@ export interface CurvesOptions {
   xTitle: string;
   yTitle: string;
   yDomain?: [number, number];
+  possible?: [number, number]; // what y can be: the axis and the intervals are cut there
   step: boolean; // holds its value until the next row
   strategyOf(row: Row): string;
   maxColumns?: number;
@@ -88,12 +89,12 @@ function layers(
     labels.length === 1
       ? {
           transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }],
-          mark: { type: 'area', fillOpacity: 0.14, interpolate },
+          mark: { type: 'area', fillOpacity: 0.14, interpolate, clip: true },
           encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
         }
       : {
           data: { values: bars },
-          mark: { type: 'rule', strokeWidth: 1.4, opacity: 0.8 },
+          mark: { type: 'rule', strokeWidth: 1.4, opacity: 0.8, clip: true },
           encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
         },
     {
@@ -130,12 +131,11 @@ function barsOf<T extends Point>(values: T[], labels: string[]): T[] {
 export function curves(options: CurvesOptions, width: number): Spec {
   const all = options.panels.flatMap((panel) => panel.rows);
   const shared = extent(all.map((row) => num(row[options.x])));
-  const y = roundTicks(
-    options.yDomain ??
-      extent(
-        all.flatMap((row) => [num(row[options.y]), num(row[options.low ?? 'low']), num(row[options.high ?? 'high'])]),
-      ),
-  );
+  const [least, most] = options.possible ?? [-Infinity, Infinity];
+  const shown = all
+    .flatMap((row) => [num(row[options.y]), num(row[options.low ?? 'low']), num(row[options.high ?? 'high'])])
+    .map((value) => value && Math.min(Math.max(value, least), most));
+  const y = roundTicks(options.yDomain ?? extent(shown));
   const rowGap = options.panels.some((panel) => panel.xTitle) ? 76 : 54; // room for the titles of all x axes
   const legend = strategyLegend(options.looks, width - 60, options.step ? 'line' : 'mark');
   return {

@@ -19,7 +19,7 @@ export interface DotsOptions {
   opensTeams?: boolean; // a click on a point shows the team
   ownScales?: boolean; // panels that are not compared with each other
   left?: number; // room for the names, px; '|' breaks a line
-  first?: number; // panels before these in the same figure
+  first?: number | undefined; // panels before these, where the figure has others too
   strategyOf(row: Row): string; // its label
 }
 
@@ -158,7 +158,7 @@ const kLeft = 104;
 
 export function dots(options: DotsOptions, width: number): Spec {
   const shared = domainOf(options, options.panels);
-  return panels(options.panels.length, width, { left: options.left ?? kLeft, min: 124, gap: 26, rowGap: options.ownScales ? 70 : 48, first: options.first ?? 0 }, (i, place) => {
+  return panels(options.panels.length, width, { left: options.left ?? kLeft, min: 124, gap: 26, rowGap: options.ownScales ? 70 : 48, first: options.first }, (i, place) => {
     const panel = options.panels[i];
     return panel ? layers(options, panel, place, options.ownScales ? domainOf(options, [panel]) : shared) : {};
   });

@@ -12,12 +12,13 @@ const kCosts = [
   { x: 'person_minutes', title: 'Against the members\u2019 time', xTitle: 'Person minutes' },
 ];
 
-const kCurves = [
+const kCurves: { id: string; y: string; title: string; yTitle: string; possible: [number, number]; reading: string }[] = [
   {
     id: 'exam-regret',
     y: 'regret',
     title: 'Regret against what teaching took',
     yTitle: 'Regret',
+    possible: [0, Infinity],
     reading: 'Curves that are lower and further left are better.',
   },
   {
@@ -25,6 +26,7 @@ const kCurves = [
     y: 'knowledge',
     title: 'Knowledge against what teaching took',
     yTitle: 'Knowledge',
+    possible: [0, 1],
     reading: 'Curves that are higher and further left are better.',
   },
 ];
@@ -34,7 +36,7 @@ export function examCurveFigures(study: Study): Figure[] {
   if (!table) return [];
   const rows = rowsOf(table);
   const strategyOf = (row: Row): string => study.words.strategy(row.strategy);
-  return kCurves.map(({ id, y, title, yTitle, reading }) => ({
+  return kCurves.map(({ id, y, title, yTitle, possible, reading }) => ({
     id,
     title,
     reading: `${reading} Means over teams with 95\u00a0% t intervals at some points; teams that have ended stay as they are. Minutes follow the study\u2019s pace.`,
@@ -51,6 +53,7 @@ export function examCurveFigures(study: Study): Figure[] {
           high: `${y}_high`,
           xTitle: 'Periods',
           yTitle,
+          possible,
           step: false,
           strategyOf,
           maxColumns: 2,

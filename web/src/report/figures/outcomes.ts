@@ -107,7 +107,7 @@ function spec(
     opensTeams: study.report.lessons !== undefined,
     zero: !column.includes('share_right'),
   };
-  const part = (rows: Row[], raw: Row[], first: number): DotsOptions => ({
+  const part = (rows: Row[], raw: Row[], first?: number): DotsOptions => ({
     ...common,
     first,
     looks: study.looks(rows),
@@ -118,7 +118,7 @@ function spec(
     })),
     strategyOf: (row) => study.words.strategy(row.strategy),
   });
-  if (column !== 'periods' || !hasTwoScales(means)) return dots(part(means, points, 0), width);
+  if (column !== 'periods' || !hasTwoScales(means)) return dots(part(means, points), width);
   const others = means.filter((row) => !isBaseline(row));
   const baseline = means.filter(isBaseline);
   const look = study.looks(baseline)[0];

@@ -75,7 +75,7 @@ export function knowledgeFigures(study: Study): Figure[] {
         reading:
           `Only people who are still being taught: from period to period these are fewer, and those who learn more slowly. Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% t intervals at some periods. Lines end where too few people are left. ${counted(rowsOf(table), 'people', 'people')}`,
       },
-      { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false },
+      { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false, possible: [0, 1] },
       byType(study),
     ),
   ];
@@ -122,7 +122,7 @@ export function correctFigures(study: Study): Figure[] {
         reading:
           `Only teams that are still being taught: later periods include only those that needed longest. Share of test answers that were right, with Wilson\u2019s 95\u00a0% intervals at some periods. ${counted(rowsOf(table), 'answers', 'answers')}`,
       },
-      { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false },
+      { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false, possible: [0, 1] },
       byType(study),
     ),
   ];
