@@ -23,16 +23,20 @@ std::string headline_about_alone(const FirstScreen& screen) {
   const auto mean_of = [&](const Outcome& outcome, bool alone) { return mean(values_of(screen, outcome, alone)); };
   const auto periods = answer_about_alone(screen, kPeriods), people = answer_about_alone(screen, kPersonPeriods);
   const double together = mean_of(kPeriods, false), alone = mean_of(kPeriods, true);
-  std::string text = "Teaching a team together takes ";
-  text += is_shown(periods) ? change_text(together, alone) + " periods than"
-                            : "no detectably different number of periods from";
-  text += " one after the other";
-  if (is_shown(people)) {
-    const double both = mean_of(kPersonPeriods, false), single = mean_of(kPersonPeriods, true);
-    const bool opposed = is_shown(periods) && (both < single) != (together < alone);
-    text += (opposed ? ", but " : " and ") + change_text(both, single) + " person-periods";
+  std::string people_text;
+  if (is_shown(people))
+    people_text = change_text(mean_of(kPersonPeriods, false), mean_of(kPersonPeriods, true)) + " person-periods";
+
+  if (!is_shown(periods)) {
+    const std::string text =
+        "no difference in periods was found between teaching a team together and one after the other";
+    return people_text.empty() ? text : text + ", but teaching together takes " + people_text;
   }
-  return text;
+  std::string text =
+      "teaching a team together takes " + change_text(together, alone) + " periods than one after the other";
+  if (people_text.empty()) return text;
+  const bool opposed = (mean_of(kPersonPeriods, false) < mean_of(kPersonPeriods, true)) != (together < alone);
+  return text + (opposed ? ", but " : " and ") + people_text;
 }
 
 std::string headline_about(const FirstScreen& screen, const std::string& factor, const std::string& levels) {
