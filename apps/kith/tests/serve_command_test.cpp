@@ -194,10 +194,10 @@ TEST(ServeCommand, LosesNothingWhenItIsKilled) {
   RehearsalOptions options{.port = static_cast<std::uint16_t>(port),
                            .facilitator = facilitator.substr(facilitator.find("#t=") + 3),
                            .groups = 4,
-                           .duration = std::chrono::seconds{12},
-                           .answer_every = std::chrono::milliseconds{400}};
+                           .duration = std::chrono::seconds{6},
+                           .answer_every = std::chrono::milliseconds{200}};
   options.on_tick = [&](std::chrono::milliseconds elapsed) {
-    if (!is_killed && elapsed > std::chrono::seconds{4}) {
+    if (!is_killed && elapsed > std::chrono::seconds{2}) {
       is_killed = true;
       serving->stop(SIGKILL);
       serving = start(std::to_string(port));
@@ -258,8 +258,8 @@ TEST(ServeCommand, RehearsesWithSimulatedPeople) {
 }
 
 TEST(ServeCommand, LosesNothingWhenARehearsalRestartsItsServer) {
-  const auto ran = run_kith({"serve", "quick", "--rehearse", "3", "--for", "8", "--answer-every", "0.3", "--reconnects",
-                             "0.05", "--restart-after", "3", "--json"});
+  const auto ran = run_kith({"serve", "quick", "--rehearse", "3", "--for", "5", "--answer-every", "0.2", "--reconnects",
+                             "0.05", "--restart-after", "2", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err << ran.out;
   const auto document = Json::parse(ran.out);
   EXPECT_EQ(document.at("restarts"), 1);
