@@ -1,12 +1,10 @@
 // The tables and figures of the page's section on calibration, made of one document of `kith calibrate --json`.
-import { figure, fixed, probability, signed, withError } from './format.mjs';
+import { fixed, probability } from './format.mjs';
 
 const short = (value) => String(Number(value.toPrecision(3)));
 
 const nameOf = (target) =>
   target.effect ? `F of ${target.effect}` : `${target.statistic === 'sd' ? 'sd of ' : ''}${target.quantity}, ${target.teams}`;
-
-const digitsOf = (target) => (target.effect ? 1 : target.quantity === 'periods' ? 2 : 3);
 
 function rangeOf({ low, high, min, max, open_low: openLow, open_high: openHigh }) {
   const [noLow, noHigh] = [openLow && low <= min, openHigh && high >= max];
@@ -25,27 +23,6 @@ export function calibrationTables(runs) {
         `${short(one.min)} .. ${short(one.max)}`,
         { text: short(one.value), value: one.value, se: (one.high - one.low) / (2 * 1.96) },
         { text: rangeOf(one) },
-      ]),
-    }),
-
-    'calibration-targets': () => ({
-      columns: ['target', 'published', 'calibrated', 'off by, in standard errors of the difference'],
-      rows: document().targets.map((target, i) => {
-        const { model, standard_error: se, misfit } = document().best.targets[i];
-        return [
-          nameOf(target),
-          String(target.value),
-          withError({ value: model, se }, digitsOf(target)),
-          figure({ value: misfit, se: target.standard_error > 0 ? se / target.standard_error : undefined }, 1, signed),
-        ];
-      }),
-    }),
-
-    'calibration-conflicts': () => ({
-      columns: ['pair', 'one of both misses by at least, in standard errors'],
-      rows: document().conflicts.slice(0, 4).map(({ first, second, closest }) => [
-        `${nameOf(document().targets[first])}; ${nameOf(document().targets[second])}`,
-        { text: fixed(closest, 1), value: closest },
       ]),
     }),
   };
@@ -81,6 +58,16 @@ export function calibrationQuotes(runs, here) {
   ];
 }
 
+export function calibrationClaims(runs) {
+  return {
+    'knowledge-conflicts-most': () => {
+      const { targets, conflicts } = runs.json('calibration');
+      const pair = [conflicts[0].first, conflicts[0].second].map((target) => nameOf(targets[target]));
+      return pair.join('; ') === 'knowledge, group; knowledge, baseline';
+    },
+  };
+}
+
 export function calibrationFigures(runs) {
   const document = () => runs.json('calibration');
   const plain = (name, digits) => () => ({ text: fixed(document()[name], digits), value: document()[name] });
@@ -90,5 +77,6 @@ export function calibrationFigures(runs) {
     'calibration.df': plain('degrees_of_freedom', 1),
     'calibration.p': () => ({ text: probability(document().misfit_p), value: document().misfit_p }),
     'calibration.teams': () => ({ text: String(document().teams) }),
+    'calibration.conflict': () => ({ text: fixed(document().conflicts[0].closest, 1), value: document().conflicts[0].closest }),
   };
 }

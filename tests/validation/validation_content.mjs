@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { study } from './runs.mjs';
-import { calibrationFigures, calibrationQuotes, calibrationTables } from './calibration_tables.mjs';
+import { calibrationClaims, calibrationFigures, calibrationQuotes, calibrationTables } from './calibration_tables.mjs';
 import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
 import {
   errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared,
@@ -100,13 +100,12 @@ export function makeContent(runs, source) {
 
   const target = (quantity, statistic, teams) =>
     targets.target.find((one) => one.quantity === quantity && (one.statistic ?? 'mean') === statistic && one.teams === teams);
-  // A published figure with its standard error, and the tolerance of the calibration as text.
+  // A published figure with its standard error.
   const publishedFigure = (quantity, statistic, teams) => {
-    const { value, tolerance, within_factor: factor } = target(quantity, statistic, teams);
     const n = paper.teams[teams];
     const deviation = target(quantity, 'sd', teams).value;
     const se = statistic === 'mean' ? deviation / Math.sqrt(n) : errorOfSd(deviation, n);
-    return { value, se, tolerance: factor ? `factor ${factor}` : `+- ${tolerance}` };
+    return { value: target(quantity, statistic, teams).value, se };
   };
   const misfit = (quantity, statistic, teams, run = 'large') => {
     const here = summary(run, quantity)[`${statistic} ${teams}`];
@@ -196,7 +195,7 @@ export function makeContent(runs, source) {
     }),
 
     'published-figures': () => ({
-      columns: ['figure', 'published', 'its standard error', 'kith', 'off by, in published standard errors', 'tolerance'],
+      columns: ['figure', 'published', 'its standard error', 'kith', 'off by, in published standard errors'],
       rows: ['mean', 'sd'].flatMap((statistic) =>
         OUTCOMES.flatMap((outcome) =>
           Object.entries(POOLS).map(([teams, label]) => {
@@ -208,7 +207,6 @@ export function makeContent(runs, source) {
               fixed(there.se, outcome === 'periods' ? 2 : 4),
               withError(summary('large', outcome)[`${statistic} ${teams}`], digits + 1),
               figure(misfit(outcome, statistic, teams), 1, signed),
-              there.tolerance,
             ];
           }),
         ),
@@ -269,20 +267,6 @@ export function makeContent(runs, source) {
         strategy,
         withError(summary('large', 'area_sr')[`mean ${strategy}`], 3),
         ...[1, 2, 3].map((kc) => (strategy === 'joint' ? '' : withError(areaDifference(strategy, kc), 3, signed))),
-      ]),
-    }),
-
-    domains: () => ({
-      columns: [
-        'domain', 'periods: baseline', 'joint', 'common - the other three', 'knowledge: baseline', 'joint (knowledge)',
-        'common - the other three (knowledge)',
-      ],
-      rows: DOMAINS.map((domain) => [
-        domain,
-        ...OUTCOMES.flatMap((outcome) => [
-          ...['baseline', 'joint'].map((strategy) => withError(summary(domain, outcome)[`mean ${strategy}`], DIGITS[outcome])),
-          withError(common(domain, outcome), DIGITS[outcome], signed),
-        ]),
       ]),
     }),
 
@@ -357,6 +341,7 @@ export function makeContent(runs, source) {
   const orderOf = (value) => GROUP.map((strategy) => [strategy, value(strategy)]).sort((a, b) => a[1] - b[1]).map(([strategy]) => strategy);
   const insignificant = (outcome, name) => termWithin(outcome, name).p_value > 0.05;
   const claims = {
+    ...calibrationClaims(runs),
     'facts-agree': () => Object.entries(reference.facts).every(([name, value]) => factsHere()[name] === value),
     'reference-periods-agree': () =>
       ['0.9', '1.0'].every((scale) =>
