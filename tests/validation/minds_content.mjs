@@ -1,7 +1,7 @@
 // The tables and claims of docs/minds.md.
 import { study } from './runs.mjs';
 import { errorOfMean, groupBy, mean } from './statistics.mjs';
-import { figure, fixed, signed, withError } from './format.mjs';
+import { figure, fixed, withError } from './format.mjs';
 
 const MINDS = 'studies/minds.toml';
 const KINDS = ['bayesian', 'slipping', 'noisy-rational', 'imitating', 'misconceived', 'decaying'];
@@ -30,7 +30,7 @@ function valueAt(path, items) {
 
 export function makeContent(runs) {
   const cells = new Map();
-  // Of every team of a cell, in the order of replicates: {regret, right} when each member had seen so many items.
+  // Of every team of a cell, in the order of replicates: {regret, seen} when each member had seen so many items.
   function cell(domain, kind, strategy) {
     if (!cells.has(domain)) cells.set(domain, cellsOf(domain));
     return cells.get(domain).get(`${kind}/${strategy}`);
@@ -50,13 +50,12 @@ export function makeContent(runs) {
           seen += row.demonstrations + row.tests;
           itemsAfter.set(row.period, seen);
         }
-        const path = (measure) => exam.map((row) => [itemsAfter.get(row.period) ?? seen, row[measure]]);
-        return { regret: valueAt(path('regret'), items), right: valueAt(path('share_right'), items), seen };
+        return { regret: valueAt(exam.map((row) => [itemsAfter.get(row.period) ?? seen, row.regret]), items), seen };
       });
       const key = `${kindOf(rows[0])}/${rows[0].strategy}`;
       if (!result.has(key)) result.set(key, []);
       const average = (measure) => mean(members.map((one) => one[measure]));
-      result.get(key).push({ regret: average('regret'), right: average('right'), seen: average('seen') });
+      result.get(key).push({ regret: average('regret'), seen: average('seen') });
     }
     return result;
   }
@@ -68,35 +67,15 @@ export function makeContent(runs) {
     const differences = values(measure, ...a).map((value, i) => value - others[i]);
     return { value: mean(differences), se: errorOfMean(differences) };
   };
-  const best = (domain, kind, among = STRATEGIES) =>
-    among.reduce((a, b) => (of('regret', domain, kind, b).value < of('regret', domain, kind, a).value ? b : a));
+  const bestOfPaper = (domain, kind) =>
+    PAPER.reduce((a, b) => (of('regret', domain, kind, b).value < of('regret', domain, kind, a).value ? b : a));
 
-  const matrix = (measure, domain, digits) => () => ({
+  const matrix = (domain) => () => ({
     columns: ['people', ...STRATEGIES.map((one) => `\`${one}\``)],
-    rows: KINDS.map((kind) => [`\`${kind}\``, ...STRATEGIES.map((strategy) => withError(of(measure, domain, kind, strategy), digits))]),
+    rows: KINDS.map((kind) => [`\`${kind}\``, ...STRATEGIES.map((strategy) => withError(of('regret', domain, kind, strategy), 3))]),
   });
 
-  const tables = {
-    ...Object.fromEntries(Object.keys(DOMAINS).map((domain) => [`regret-${domain}`, matrix('regret', domain, 3)])),
-    ...Object.fromEntries(Object.keys(DOMAINS).map((domain) => [`right-${domain}`, matrix('right', domain, 3)])),
-    best: () => ({
-      columns: ['domain', 'people', 'least regret', 'regret of `plan`', 'least minus `plan`', 'cost of the wrong assumption', 'best of the paper'],
-      rows: Object.keys(DOMAINS).flatMap((domain) =>
-        KINDS.map((kind) => {
-          const winner = best(domain, kind);
-          return [
-            domain,
-            `\`${kind}\``,
-            `\`${winner}\``,
-            withError(of('regret', domain, kind, 'plan'), 3),
-            withError(difference('regret', [domain, kind, winner], [domain, kind, 'plan']), 3, signed),
-            withError(difference('regret', [domain, kind, 'plan'], [domain, 'bayesian', 'plan']), 3, signed),
-            `\`${best(domain, kind, PAPER)}\``,
-          ];
-        }),
-      ),
-    }),
-  };
+  const tables = Object.fromEntries(Object.keys(DOMAINS).map((domain) => [`regret-${domain}`, matrix(domain)]));
   const domains = Object.keys(DOMAINS);
   const TABULATED = ['item-delivery', 'colored-tiles'];
   const OTHERS = KINDS.filter((kind) => kind !== 'imitating');
@@ -112,7 +91,7 @@ export function makeContent(runs) {
     'plan-is-best-in-item-delivery': () => everywhere(['item-delivery'], OTHERS, (domain, kind) => STRATEGIES.every((strategy) => !more(domain, kind, 'plan', strategy))),
     'plan-fails-on-the-lake': () => everywhere(['frozen-lake'], OTHERS, (domain, kind) => STRATEGIES.every((one) => one === 'plan' || more(domain, kind, 'plan', one))),
     'imitators-turn-it-round': () => everywhere(TABULATED, ['imitating'], (domain, kind) => PAPER.every((strategy) => more(domain, kind, 'plan', strategy))),
-    'plan-cures': () => ['misconceived', 'decaying'].every((kind) => regret('item-delivery', kind, 'plan') < 0.5 * regret('item-delivery', kind, best('item-delivery', kind, PAPER))),
+    'plan-cures': () => ['misconceived', 'decaying'].every((kind) => regret('item-delivery', kind, 'plan') < 0.5 * regret('item-delivery', kind, bestOfPaper('item-delivery', kind))),
   };
   const figures = {
     'slip-cost': () => figure(difference('regret', ['item-delivery', 'slipping', 'plan'], ['item-delivery', 'bayesian', 'plan']), 2),
