@@ -50,32 +50,30 @@ export function makeContent(runs) {
       ...(left > REGRET_LEFT ? ['regret'] : []),
       ...(after.share < SHARE_RIGHT ? ['share right'] : []),
     ];
-    return { periods: mean(teams.map((team) => team.periods)), before, after, left, missed };
+    return { periods: mean(teams.map((team) => team.periods)), after, left, missed };
   };
-
-  const each = (visit) => Object.keys(ROBOTS).flatMap((robot) => STRATEGIES.map((strategy) => visit(robot, strategy)));
 
   const tables = {
     robots: () => ({
-      columns: ['robot', 'worlds', 'start states', 'what the lesson says'],
+      columns: ['robot', 'worlds', 'start states', 'the lesson begins with'],
       rows: Object.entries(ROBOTS).map(([robot, title]) => {
         const { mdps, demonstrations } = runs.json(`inspect ${robot}`);
         const texts = runs.json(`lesson ${robot}`).components.flatMap(({ sentences }) => sentences.map(({ text }) => text));
-        return [title, String(mdps), String(demonstrations), [...new Set(texts)].filter(Boolean).join('; ')];
+        return [title, String(mdps), String(demonstrations), [...new Set(texts)].filter(Boolean).slice(0, 2).join('; ')];
       }),
     }),
 
     crews: () => ({
-      columns: ['robot', 'strategy', 'periods', 'share right', 'regret left', 'missed'],
-      rows: each((robot, strategy) => {
-        const { periods, before, after, left, missed } = measure(robot, strategy);
+      columns: ['robot', 'periods', 'share right', 'regret left, %', 'missed'],
+      rows: Object.keys(ROBOTS).map((robot) => {
+        const crews = STRATEGIES.map((strategy) => ({ strategy, ...measure(robot, strategy) }));
+        const listed = (print) => crews.map(print).join(', ');
         return [
           ROBOTS[robot],
-          `\`${strategy}\``,
-          fixed(periods, 1),
-          `${fixed(before.share, 3)} to ${fixed(after.share, 3)}`,
-          `${fixed(100 * left, 0)} %`,
-          missed.join(', ') || 'none',
+          listed(({ periods }) => fixed(periods, 1)),
+          listed(({ after }) => fixed(after.share, 3)),
+          listed(({ left }) => fixed(100 * left, 0)),
+          crews.flatMap(({ strategy, missed }) => missed.map((what) => `${what} of \`${strategy}\``)).join(', '),
         ];
       }),
     }),
