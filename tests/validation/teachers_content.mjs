@@ -42,7 +42,6 @@ const CREWS = { NNPP: TEACHERS, LLHH: MIXED };
 
 export const COMMANDS = {
   lessons: study(TEACHERS),
-  'two demonstrations': study(TEACHERS, only(...PLANNERS), TWO_DEMONSTRATIONS),
   'six periods': study(TEACHERS, only('joint', 'plan'), 'stop.periods_per_component=2'),
   review: study(TEACHERS, only('joint', 'pick', 'plan'), 'teacher.review=true'),
   'stop of the paper': study(TEACHERS, PAPER_STOP),
@@ -53,7 +52,7 @@ export const COMMANDS = {
   'mixed abilities, equally many items, bank alone': study(MIXED, HUNDRED, only('adaptive'), ...EQUALLY_MANY, 'strategy.adaptive.answers=0'),
   abilities: study(TEACHERS, HUNDRED, only('joint'), ...ESTIMATES),
   'abilities, mixed': study(MIXED, HUNDRED, only('joint'), 'design.compositions=["LLH"]', ...ESTIMATES),
-  ...Object.fromEntries([3, 4, 5].map((n) => [`fixed ${n}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, `stop.periods_per_component=${n}`)])),
+  ...Object.fromEntries([5].map((n) => [`fixed ${n}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, `stop.periods_per_component=${n}`)])),
   ...Object.fromEntries([0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, ...POSTERIOR(p))])),
   known: study(TEACHERS, only('joint', ...PLANNERS), ...KNOWN, ...ESTIMATES),
   'known, blind': study(TEACHERS, only('adaptive'), ...KNOWN.filter((one) => !one.startsWith('teacher.hypotheses')), ...BLIND),
@@ -142,7 +141,6 @@ export function makeContent(runs) {
       stalled: share(teams.filter((team) => team.status !== 'complete').length, teams.length),
     };
   };
-  const masteryRules = [...[3, 4, 5].map((n) => `fixed ${n}`), ...[0.8, 0.9, 0.95].map((p) => `posterior ${p}`)];
   // Forecasts of being done within three more periods, {forecast, done}.
   const forecasts = () => {
     const teams = new Map(runs.table('forecasts', 'teams').map((team) => [team.team, team]));
@@ -161,52 +159,20 @@ export function makeContent(runs) {
     lessons: () =>
       table('strategy', ['regret', 'p_BEC', 'items'], [
         ...named('lessons', [...PAPER, 'pick', ...PLANNERS]),
-        ...PLANNERS.map((strategy) => [`\`${strategy}\`, two demonstrations per lesson`, 'two demonstrations', strategy]),
-        ['`joint` in six periods', 'six periods', 'joint'],
-        ['`plan` in six periods', 'six periods', 'plan'],
         ['`joint` with `review`', 'review', 'joint'],
         ['`pick` with `review`', 'review', 'pick'],
       ]),
 
-    abilities: () => ({
-      columns: ['people', 'after periods', 'correlation', 'AUC', '80 % intervals cover', 'told', 'of these, correctly'],
-      rows: [
-        ...[3, 6, 9].map((period) => ['N and P', period, abilities('abilities', period, 'NP')]),
-        ['L and H', 9, abilities('abilities, mixed', 9, 'LH')],
-      ].map(([who, period, one]) => [
-        who,
-        String(period),
-        ...[one.correlation, one.area, one.covered, one.told, one.correctly].map((value) => withError(value, 2)),
-      ]),
-    }),
-
-    posterior: () => ({
-      columns: ['rule', 'periods', 'regret', 'p_BEC', 'predicted mastery', 'true mastery'],
-      rows: masteryRules.map((rule) => [
-        rule,
-        ...['periods', 'regret', 'p_BEC'].map((measure) => cell(rule, 'joint', measure)),
-        withError(mastery(rule).predicted, 3),
-        withError(mastery(rule).actual, 3),
-      ]),
-    }),
-
     rivals: () => ({
-      columns: ['domain', 'strategy', 'share right', 'regret', 'items'],
-      rows: DOMAINS.flatMap((domain) =>
-        RIVALS.map((strategy) => [
-          domain,
-          `\`${strategy}\``,
-          ...['share right', 'regret', 'items'].map((measure) => cell(`rivals, ${domain}`, strategy, measure)),
-        ]),
-      ),
+      columns: ['strategy', ...DOMAINS],
+      rows: RIVALS.map((strategy) => [`\`${strategy}\``, ...DOMAINS.map((domain) => cell(`rivals, ${domain}`, strategy, 'share right'))]),
     }),
 
     capacity: () =>
-      table('strategy', ['regret', 'p_BEC', 'items'], [
+      table('strategy', ['regret', 'p_BEC'], [
         ...named('capacity 2', ['joint', ...PLANNERS]),
         ['`joint` with `review`', 'capacity 2, review', 'joint'],
         ...PLANNERS.map((strategy) => [`\`${strategy}\` with \`capacity = 2\``, 'capacity 2, planned for', strategy]),
-        ['`plan` with `capacity = 2`, people who take in everything', 'planned for capacity 2 in vain', 'plan'],
       ]),
   };
 
@@ -299,7 +265,24 @@ export function makeContent(runs) {
     const values = teams.map(MEASURES[measure][0]);
     return `${fixed(Math.min(...values), digits)} to ${fixed(Math.max(...values), digits)}`;
   };
+  const ability = (run, letters) =>
+    Object.fromEntries(
+      Object.entries({ correlation: 'correlation', area: 'auc', covered: 'covered', told: 'told', correctly: 'told-right' }).map(([measure, name]) => [
+        `${letters}-${name}`,
+        () => figure(abilities(run, 9, letters)[measure], 2),
+      ]),
+    );
   const figures = {
+    ...ability('abilities', 'NP'),
+    ...ability('abilities, mixed', 'LH'),
+    'fixed-5-periods': () => figure(of('fixed 5', 'joint', 'periods'), 1),
+    'fixed-5-mastery': () => figure(mastery('fixed 5').actual, 3),
+    ...Object.fromEntries(
+      [0.8, 0.9, 0.95].flatMap((p) => [
+        [`posterior-${p}-periods`, () => figure(of(`posterior ${p}`, 'joint', 'periods'), 1)],
+        [`posterior-${p}-mastery`, () => figure(mastery(`posterior ${p}`).actual, 3)],
+      ]),
+    ),
     'sure-forecasts': () => String(sureForecasts().length),
     'sure-forecast-mean': () => forecastMean(sureForecasts()).toFixed(3),
     'sure-forecast-share': () => figure(doneShare(sureForecasts()), 3),
