@@ -190,8 +190,8 @@ export function makeContent(runs, source) {
 
   const tables = {
     facts: () => ({
-      columns: ['fact', 'reference', 'kith'],
-      rows: Object.entries(reference.facts).map(([name, value]) => [name, value, { text: factsHere()[name] ?? 'missing' }]),
+      columns: ['fact', 'value'],
+      rows: Object.keys(reference.facts).map((name) => [name, { text: factsHere()[name] ?? 'missing' }]),
     }),
 
     'published-figures': () => ({
@@ -259,15 +259,6 @@ export function makeContent(runs, source) {
           { text: probability(one.p_value_brown_forsythe), value: one.p_value_brown_forsythe },
         ];
       }),
-    }),
-
-    areas: () => ({
-      columns: ['strategy', 'mean area per period, sr', ...[1, 2, 3].map((kc) => `joint minus this (${kc})`)],
-      rows: GROUP.map((strategy) => [
-        strategy,
-        withError(summary('large', 'area_sr')[`mean ${strategy}`], 3),
-        ...[1, 2, 3].map((kc) => (strategy === 'joint' ? '' : withError(areaDifference(strategy, kc), 3, signed))),
-      ]),
     }),
 
     ...calibrationTables(runs),

@@ -22,9 +22,9 @@ expect() {
 }
 
 expect 0 '' ''
-expect 1 'facts, its solid angle with the prior, sr, kith: the page has 0.0260957, now 0.0260947' \
+expect 1 'facts, its solid angle with the prior, sr, value: the page has 0.0260957, now 0.0260947' \
   '/solid angle with the prior, sr/s/0.0260947 |$/0.0260957 |/'
-expect 1 'facts, mask counters, reference: the page has 9 481, 1 767, 15 979, now 9 480' '/mask counters/s/9 480/9 481/'
+expect 1 'facts, mask counters, value: the page has 9 481, 1 767, 15 979, now 9 480' '/mask counters/s/9 480/9 481/'
 expect 1 'facts: the page has 10 lines, now 11 lines' '/| coverage sets/d'
 expect 1 'version: the page has 9.9.9, now' 's/<!--f version-->[^<]*</<!--f version-->9.9.9</'
 expect 1 'the figure 7.77 is typed by hand' 's/^## In short$/&\n\nPeriods were 7.77./'
