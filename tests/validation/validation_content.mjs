@@ -271,15 +271,12 @@ export function makeContent(runs, source) {
         se: (100 * (high - low)) / (2 * 1.96),
       });
       return {
-        columns: ['finding', 'published', 'significant here', 'power by F', 'power imposed'],
+        columns: ['finding', 'published', 'significant here', 'power by F'],
         rows: paired.findings.map((finding) => [
           finding.effect,
           `${finding.published_significant ? `p < ${String(finding.alpha).replace(/^0/, '')}` : 'n.s.'}${finding.published_f ? `, F = ${fixed(finding.published_f, 2)}` : ''}`,
           share(finding, paired),
           finding.analytic_power === null ? '' : { text: fixed(finding.analytic_power, 2), value: finding.analytic_power },
-          finding.imposed_power === null
-            ? ''
-            : withError({ value: finding.imposed_power.power, se: (finding.imposed_power.high - finding.imposed_power.low) / (2 * 1.96) }, 2),
         ]),
       };
     },
@@ -304,21 +301,11 @@ export function makeContent(runs, source) {
     'sd.knowledge.published': () => fixed(publishedFigure('knowledge', 'sd', 'group').value, 2),
     'eta.composition': () => figure(eta('periods', 'composition'), 2),
     'eta.composition.published': () => fixed(partialEtaSquared(publishedF('periods', 'composition').f, 3, 224).value, 3),
-    'eta.strategy.knowledge.published': () => fixed(partialEtaSquared(publishedF('knowledge', 'strategy').f, 3, 224).value, 3),
     'strategy.periods.range': () => withError(large('periods', 'strategy range'), 2),
     'strategy.knowledge.range': () => withError(large('knowledge', 'strategy range'), 3),
     'range.difference': () => withError(large('periods', 'range difference'), 2, signed),
     'agreement.paired': () => ({ text: fixed(runs.json('findings, paired').replication.mean_agreement, 1), value: runs.json('findings, paired').replication.mean_agreement }),
     'agreement.unpaired': () => ({ text: fixed(runs.json('findings, unpaired').replication.mean_agreement, 1), value: runs.json('findings, unpaired').replication.mean_agreement }),
-    ...Object.fromEntries(
-      [['periods', 'strategy'], ['periods', 'composition'], ['knowledge', 'strategy'], ['knowledge', 'composition'], ['knowledge', 'strategy x composition']].map(([outcome, name]) => [
-        `power.${outcome}.${name.replaceAll(' ', '')}`,
-        () => {
-          const one = runs.json('findings, paired').replication.findings.find((finding) => finding.effect === `${outcome}: ${name}`);
-          return { text: fixed(one.analytic_power, 2), value: one.analytic_power };
-        },
-      ]),
-    ),
     ...calibrationFigures(runs),
     'reference.knowledge': () => {
       const gaps = ['0.9', '1.0'].flatMap((scale) =>
@@ -394,6 +381,10 @@ export function makeContent(runs, source) {
         const others = Object.keys(sensitivity).filter((name) => !['eta', 'ability scale'].includes(name));
         return share('eta') + share('ability scale') > 0.9 && others.every((name) => share(name) < 0.1);
       }),
+    'powers-agree': () =>
+      runs.json('findings, paired').replication.findings.every(
+        ({ analytic_power: byF, imposed_power: imposed }) => byF === null || imposed === null || Math.abs(byF - imposed.power) < 0.05,
+      ),
     'never-all-findings': () => runs.json('findings, paired').replication.all_agree === 0 && runs.json('findings, unpaired').replication.all_agree === 0,
     exceptions: () =>
       ['paired', 'unpaired'].every((pairing) => {
