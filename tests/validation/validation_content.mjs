@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { study } from './runs.mjs';
-import { calibrationClaims, calibrationFigures, calibrationQuotes, calibrationTables } from './calibration_tables.mjs';
+import { calibrationClaims, calibrationFigures, calibrationQuotes } from './calibration_figures.mjs';
 import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
 import {
   errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared,
@@ -260,8 +260,6 @@ export function makeContent(runs, source) {
         ];
       }),
     }),
-
-    ...calibrationTables(runs),
 
     power: () => {
       const paired = runs.json('findings, paired').replication;

@@ -1,32 +1,10 @@
-// The tables and figures of the page's section on calibration, made of one document of `kith calibrate --json`.
+// The figures of the page's section on calibration, made of one document of `kith calibrate --json`.
 import { fixed, probability } from './format.mjs';
 
 const short = (value) => String(Number(value.toPrecision(3)));
 
 const nameOf = (target) =>
   target.effect ? `F of ${target.effect}` : `${target.statistic === 'sd' ? 'sd of ' : ''}${target.quantity}, ${target.teams}`;
-
-function rangeOf({ low, high, min, max, open_low: openLow, open_high: openHigh }) {
-  const [noLow, noHigh] = [openLow && low <= min, openHigh && high >= max];
-  const end = noLow && noHigh ? ', the whole range' : noLow ? ', no lower limit' : noHigh ? ', no upper limit' : '';
-  return `${openLow && !noLow ? '<= ' : ''}${short(low)} .. ${openHigh && !noHigh ? '>= ' : ''}${short(high)}${end}`;
-}
-
-export function calibrationTables(runs) {
-  const document = () => runs.json('calibration');
-  return {
-    'calibration-parameters': () => ({
-      columns: ['parameter', 'default', 'searched', 'calibrated', '95 % interval, the others adjusted'],
-      rows: document().parameters.map((one) => [
-        one.name,
-        short(one.present),
-        `${short(one.min)} .. ${short(one.max)}`,
-        { text: short(one.value), value: one.value, se: (one.high - one.low) / (2 * 1.96) },
-        { text: rangeOf(one) },
-      ]),
-    }),
-  };
-}
 
 const listed = (words) => (words.length > 1 ? `${words.slice(0, -1).join(', ')} and ${words.at(-1)}` : words[0]);
 
@@ -64,6 +42,10 @@ export function calibrationClaims(runs) {
       const { targets, conflicts } = runs.json('calibration');
       const pair = [conflicts[0].first, conflicts[0].second].map((target) => nameOf(targets[target]));
       return pair.join('; ') === 'knowledge, group; knowledge, baseline';
+    },
+    'parameters-undetermined': () => {
+      const open = runs.json('calibration').parameters.filter((one) => one.open_low && one.low <= one.min);
+      return open.length === 6 && open.every((one) => one.name === 'eta' || (one.open_high && one.high >= one.max));
     },
   };
 }
