@@ -271,14 +271,8 @@ Json live_study_json(const LiveStudy& study) {
             {"size", size},
             {"dropout", std::string{name_of(group.dropout.policy)}},
             {"grace_s", group.dropout.grace_s},
-            {"time",
-             {{"watch_s", group.time.watch_s},
-              {"predict_s", group.time.predict_s},
-              {"feedback_s", group.time.feedback_s},
-              {"lobby_s", group.time.lobby_s},
-              {"leave_after_s", group.time.leave_after_s},
-              {"max_minutes", group.time.max_minutes}}}};
-  if (group.discussion.choice.is_held()) info["time"]["discuss_s"] = group.time.discuss_s;
+            {"time", Json::object()}};
+  for (const auto& key : kGroupTimeKeys) info["time"][std::string{key.name}] = group.time.*key.member;
   return info;
 }
 

@@ -52,9 +52,9 @@ class GroupReader {
       }
     }
     if (auto screens = group_.table("screens", Presence::kOptional)) {
-      take(options_.screens.predict_first, screens->boolean("predict_first", Presence::kOptional));
-      take(options_.screens.brackets, screens->boolean("brackets", Presence::kOptional));
-      take(options_.screens.explore, screens->boolean("explore", Presence::kOptional));
+      for (const auto& key : kGroupScreenKeys) {
+        take(options_.screens.*key.member, screens->boolean(key.name, Presence::kOptional));
+      }
       screens->finish();
     }
     if (auto discussion = group_.table("discussion", Presence::kOptional)) read_discussion(*discussion);
@@ -154,14 +154,9 @@ class GroupReader {
   }
 
   void read_time(TomlReader& time) {
-    auto& limits = options_.time;
-    take(limits.watch_s, time.integer("watch_s", Presence::kOptional, {0, kDay}));
-    take(limits.predict_s, time.integer("predict_s", Presence::kOptional, {0, kDay}));
-    take(limits.feedback_s, time.integer("feedback_s", Presence::kOptional, {0, kDay}));
-    take(limits.discuss_s, time.integer("discuss_s", Presence::kOptional, {0, kDay}));
-    take(limits.lobby_s, time.integer("lobby_s", Presence::kOptional, {0, kDay}));
-    take(limits.leave_after_s, time.integer("leave_after_s", Presence::kOptional, {0, kDay}));
-    take(limits.max_minutes, time.integer("max_minutes", Presence::kOptional, {0, kDay / 60}));
+    for (const auto& key : kGroupTimeKeys) {
+      take(options_.time.*key.member, time.integer(key.name, Presence::kOptional, {0, key.most}));
+    }
     time.finish();
   }
 

@@ -81,19 +81,14 @@ TomlTable group_table(const GroupOptions& group) {
     dropout.add("otherwise", std::string{name_of(group.dropout.otherwise)});
   }
   table.add("dropout", dropout.take());
-  time.add("watch_s", group.time.watch_s);
-  time.add("predict_s", group.time.predict_s);
-  time.add("feedback_s", group.time.feedback_s);
-  if (group.time.discuss_s > 0) time.add("discuss_s", group.time.discuss_s);
-  time.add("lobby_s", group.time.lobby_s);
-  time.add("leave_after_s", group.time.leave_after_s);
-  time.add("max_minutes", group.time.max_minutes);
+  for (const auto& key : kGroupTimeKeys) {
+    const auto limit = group.time.*key.member;
+    if (key.is_always_written || limit > 0) time.add(std::string{key.name}, limit);
+  }
   table.add("time", time.take());
   if (group.screens != GroupScreens{}) {
     GroupTable screens;
-    screens.add("predict_first", group.screens.predict_first);
-    screens.add("brackets", group.screens.brackets);
-    screens.add("explore", group.screens.explore);
+    for (const auto& key : kGroupScreenKeys) screens.add(std::string{key.name}, group.screens.*key.member);
     table.add("screens", screens.take());
   }
   if (group.discussion.choice.is_held()) table.add("discussion", discussion_table(group.discussion));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -51,6 +52,25 @@ struct GroupTime {
   friend bool operator==(const GroupTime&, const GroupTime&) = default;
 };
 
+/// A key of `group.time`.
+struct GroupTimeKey {
+  std::string_view name;
+  std::int64_t GroupTime::*member;
+  std::int64_t most = 86'400;     ///< The largest value; the smallest is 0.
+  bool is_always_written = true;  ///< False: frozen inputs have it only where it is not 0.
+};
+
+/// All of them, in the order of written files.
+inline constexpr std::array kGroupTimeKeys{
+    GroupTimeKey{"watch_s", &GroupTime::watch_s},
+    GroupTimeKey{"predict_s", &GroupTime::predict_s},
+    GroupTimeKey{"feedback_s", &GroupTime::feedback_s},
+    GroupTimeKey{.name = "discuss_s", .member = &GroupTime::discuss_s, .is_always_written = false},
+    GroupTimeKey{"lobby_s", &GroupTime::lobby_s},
+    GroupTimeKey{"leave_after_s", &GroupTime::leave_after_s},
+    GroupTimeKey{"max_minutes", &GroupTime::max_minutes, 86'400 / 60},
+};
+
 /// `group.screening`: tests before the lobby.
 struct GroupScreening {
   std::size_t tests = 0;  ///< 0 to 20; 0: no screening.
@@ -65,6 +85,19 @@ struct GroupScreens {
   bool brackets = false;       ///< Feedback shows between which bounds each cost lies, by what was shown so far.
   bool explore = false;        ///< After feedback and at the end people may change the world and see the robot's path.
   friend bool operator==(const GroupScreens&, const GroupScreens&) = default;
+};
+
+/// A key of `group.screens`.
+struct GroupScreenKey {
+  std::string_view name;
+  bool GroupScreens::*member;
+};
+
+/// All of them, in the order of written files.
+inline constexpr std::array kGroupScreenKeys{
+    GroupScreenKey{"predict_first", &GroupScreens::predict_first},
+    GroupScreenKey{"brackets", &GroupScreens::brackets},
+    GroupScreenKey{"explore", &GroupScreens::explore},
 };
 
 /// `group.discussion`: whether members see each other's answers, without names, before the feedback, and may revise
