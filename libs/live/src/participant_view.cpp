@@ -115,9 +115,7 @@ class ParticipantPage {
     if (state_.phase == RoomPhase::kFeedback && !session.history().empty()) {
       return session.history().back().lesson.component + 1;
     }
-    if (is_open_lesson(state_.phase)) {
-      return session.lesson().component + 1;
-    }
+    if (rules_of(state_.phase).has_open_lesson) return session.lesson().component + 1;
     return std::min(static_cast<std::size_t>(over) + 1, parts);
   }
   [[nodiscard]] std::ptrdiff_t shown_over(std::ptrdiff_t over) const {
@@ -143,22 +141,14 @@ class ParticipantPage {
           task(room_.study.screening[seat_.screened.size()], seat_.screened.size(), room_.study.screening.size(), {});
     } else if (stage == "lobby") {
       view["lobby"] = lobby();
-    } else if (stage == "watch") {
-      view["watch"] = watch();
-    } else if (stage == "predict") {
-      const auto& tests = state_.session->lesson().tests;
-      const auto test = current_test(seat_);
-      view["predict"] = task(tests[test].demo, test, tests.size(), seat_.draft);
-    } else if (stage == "discuss") {
-      view["discuss"] = discussion();
     } else if (stage == "wait") {
       view["wait"] = wait();
-    } else if (stage == "feedback") {
-      view["feedback"] = feedback_json(room_, seat_);
-    } else if (stage == "questions") {
-      view["questions"] = {{"items", questions()}};
     } else if (stage == "debrief") {
       view["debrief"] = debrief();
+    } else if (is_running(state_) && stage == rules_of(state_.phase).word) {
+      add_phase(view);
+    } else if (stage == "questions") {
+      view["questions"] = {{"items", questions()}};
     } else {
       view["end"] = end_json(room_.study, seat_.why, end_text(seat_, state_.end_text),
                              seat_.gets_code ? code() : std::string{}, seat_.query);
@@ -167,8 +157,32 @@ class ParticipantPage {
     if (may_explore && room_.study.group().screens.explore && can_explore(room_.study.atlas->domain())) {
       view["explore"] = explore_json(room_, seat_);
     }
-    if (state_.deadline_us && (stage == "watch" || stage == "predict" || stage == "discuss" || stage == "feedback")) {
-      view["limit_ms"] = in_ms(*state_.deadline_us);
+    if (state_.deadline_us && stage == rules_of(state_.phase).word) view["limit_ms"] = in_ms(*state_.deadline_us);
+  }
+
+  // What there is to do for the group.
+  void add_phase(Json& view) const {
+    switch (state_.phase) {
+      case RoomPhase::kWatching:
+        view["watch"] = watch();
+        return;
+      case RoomPhase::kTesting: {
+        const auto& tests = state_.session->lesson().tests;
+        const auto test = current_test(seat_);
+        view["predict"] = task(tests[test].demo, test, tests.size(), seat_.draft);
+        return;
+      }
+      case RoomPhase::kDiscussing:
+        view["discuss"] = discussion();
+        return;
+      case RoomPhase::kFeedback:
+        view["feedback"] = feedback_json(room_, seat_);
+        return;
+      case RoomPhase::kLobby:  // there is nothing to do, or not for the group
+      case RoomPhase::kTeaching:
+      case RoomPhase::kQuestions:
+      case RoomPhase::kEnded:
+        return;
     }
   }
 

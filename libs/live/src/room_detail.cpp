@@ -61,7 +61,7 @@ class RoomDetailPage {
 
   // The one that people see; while they read the feedback that of the period behind them.
   [[nodiscard]] const Lesson* current_lesson() const {
-    return is_open_lesson(state_.phase) ? &state_.session->lesson() : last_lesson(state_);
+    return rules_of(state_.phase).has_open_lesson ? &state_.session->lesson() : last_lesson(state_);
   }
 
   [[nodiscard]] std::string why(const Lesson& lesson) const {
@@ -102,7 +102,7 @@ class RoomDetailPage {
       entry["sentences"] = plain_sentences(domain_, test.covered);
       tests.push_back(std::move(entry));
     }
-    if (state_.runners_up && is_open_lesson(state_.phase)) {
+    if (state_.runners_up && rules_of(state_.phase).has_open_lesson) {
       for (const auto& other : *state_.runners_up) {
         others.push_back({{"board", live_board(room_.study, other.demo)},
                           {"gain", other.gain},

@@ -8,51 +8,6 @@ bool gates(const LiveSeat& seat) noexcept {
   return seat.is_person && seat.status == SeatStatus::kActive && seat.in_period;
 }
 
-PhaseRules rules_of(RoomPhase phase) noexcept {
-  switch (phase) {
-    case RoomPhase::kLobby:
-      return {RoomStage::kLobby, "lobby", "teacher"};
-    case RoomPhase::kTeaching:
-      return {RoomStage::kRunning, "teacher", "teacher"};
-    case RoomPhase::kWatching:
-      return {RoomStage::kRunning, "watch", "others-watching", &GroupTime::watch_s};
-    case RoomPhase::kTesting:
-      return {RoomStage::kRunning, "predict", "answers", &GroupTime::predict_s};
-    case RoomPhase::kDiscussing:
-      return {RoomStage::kRunning, "discuss", "discussion", &GroupTime::discuss_s};
-    case RoomPhase::kFeedback:
-      return {RoomStage::kRunning, "feedback", "feedback", &GroupTime::feedback_s};
-    case RoomPhase::kQuestions:
-      return {RoomStage::kQuestions, "questions", "teacher"};
-    case RoomPhase::kEnded:
-      return {RoomStage::kEnded, "ended", "teacher"};
-  }
-  return {};
-}
-
-bool is_open_lesson(RoomPhase phase) noexcept {
-  return phase == RoomPhase::kWatching || phase == RoomPhase::kTesting || phase == RoomPhase::kDiscussing;
-}
-
-bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept {
-  switch (state.phase) {
-    case RoomPhase::kWatching:
-      return seat.watched >= state.session->lesson().demonstrations.size();
-    case RoomPhase::kTesting:
-      return seat.has_answered;
-    case RoomPhase::kDiscussing:
-      return std::all_of(seat.choices.begin(), seat.choices.end(), [](const auto& one) { return one.has_value(); });
-    case RoomPhase::kFeedback:
-      return seat.has_continued;
-    case RoomPhase::kLobby:
-    case RoomPhase::kTeaching:
-    case RoomPhase::kQuestions:
-    case RoomPhase::kEnded:
-      break;
-  }
-  return true;
-}
-
 std::size_t num_active_people(const Room::State& state) noexcept {
   return static_cast<std::size_t>(std::count_if(state.seats.begin(), state.seats.end(), [](const LiveSeat& seat) {
     return seat.is_person && seat.member && seat.status == SeatStatus::kActive;

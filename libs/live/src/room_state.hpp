@@ -25,9 +25,6 @@ enum class SeatStatus {
   kGone,     ///< For good, unless a facilitator readmits them.
 };
 
-/// The order stays: digests count in it.
-enum class RoomPhase { kLobby, kTeaching, kWatching, kTesting, kFeedback, kQuestions, kEnded, kDiscussing };
-
 /// A person's path in answer to one test.
 struct GivenPath {
   std::vector<std::size_t> actions;
@@ -162,17 +159,6 @@ struct Room::State {
   std::vector<LiveCurvePoint> curves;
   std::shared_ptr<const std::vector<RunnerUp>> runners_up;
 };
-
-/// What holds in a phase: one row per phase.
-struct PhaseRules {
-  RoomStage stage;
-  std::string_view word;             ///< Also the page of who has something to do, and the limit in TimeOver.
-  std::string_view waits_for;        ///< What who has done their part waits for.
-  std::int64_t GroupTime::*limit{};  ///< In seconds; null: none.
-};
-[[nodiscard]] PhaseRules rules_of(RoomPhase phase) noexcept;
-/// Whether a lesson is under way whose feedback has not been given: Session::lesson() is what people work on.
-[[nodiscard]] bool is_open_lesson(RoomPhase phase) noexcept;
 
 /// A room as its parts see it.
 struct RoomParts {

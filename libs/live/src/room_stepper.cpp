@@ -156,6 +156,25 @@ void RoomStepper::sync_members() {
   sync_members();
 }
 
+bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept {
+  switch (state.phase) {
+    case RoomPhase::kWatching:
+      return seat.watched >= state.session->lesson().demonstrations.size();
+    case RoomPhase::kTesting:
+      return seat.has_answered;
+    case RoomPhase::kDiscussing:
+      return std::all_of(seat.choices.begin(), seat.choices.end(), [](const auto& one) { return one.has_value(); });
+    case RoomPhase::kFeedback:
+      return seat.has_continued;
+    case RoomPhase::kLobby:
+    case RoomPhase::kTeaching:
+    case RoomPhase::kQuestions:
+    case RoomPhase::kEnded:
+      break;
+  }
+  return true;
+}
+
 bool RoomStepper::all_done() const {
   return std::all_of(state_.seats.begin(), state_.seats.end(),
                      [&](const LiveSeat& seat) { return !gates(seat) || has_done_phase(state_, seat); });

@@ -1,5 +1,7 @@
 #include "bot_mind.hpp"
 
+#include "kith/live/room_phase.hpp"
+
 namespace kith {
 namespace {
 
@@ -77,21 +79,28 @@ std::optional<BotAct> act_for(const Json& view) try {
   }
   if (stage == "check") return BotAct{.type = "checked", .body = Json::object(), .key = stage, .pace = 0.2};
   if (stage == "screening") return path_for(view.at("predict"), "screen", period);
-  if (stage == "watch") {
-    const auto index = number(view.at("watch"), "index");
-    return BotAct{.type = "watched",
-                  .body = {{"demo", view["watch"].value("index", 0)}},
-                  .key = stage + period + "/" + index,
-                  .pace = 0.5};
-  }
-  if (stage == "predict") return path_for(view.at("predict"), "answer", period);
-  if (stage == "discuss") return decision_on(view.at("discuss"), stage + period);
-  if (stage == "feedback") {
-    return BotAct{.type = "continue", .body = Json::object(), .key = stage + period, .pace = 0.3};
-  }
-  if (stage == "questions") {
-    const Json body{{"answers", answers_to(view.at("questions").at("items"))}};
-    return BotAct{.type = "questions", .body = body, .key = stage, .pace = 0.5};
+  const auto phase = phase_of_page(stage);
+  if (!phase) return std::nullopt;
+  switch (*phase) {
+    case RoomPhase::kWatching:
+      return BotAct{.type = "watched",
+                    .body = {{"demo", view.at("watch").value("index", 0)}},
+                    .key = stage + period + "/" + number(view["watch"], "index"),
+                    .pace = 0.5};
+    case RoomPhase::kTesting:
+      return path_for(view.at("predict"), "answer", period);
+    case RoomPhase::kDiscussing:
+      return decision_on(view.at("discuss"), stage + period);
+    case RoomPhase::kFeedback:
+      return BotAct{.type = "continue", .body = Json::object(), .key = stage + period, .pace = 0.3};
+    case RoomPhase::kQuestions: {
+      const Json body{{"answers", answers_to(view.at("questions").at("items"))}};
+      return BotAct{.type = "questions", .body = body, .key = stage, .pace = 0.5};
+    }
+    case RoomPhase::kLobby:
+    case RoomPhase::kTeaching:
+    case RoomPhase::kEnded:
+      return std::nullopt;
   }
   return std::nullopt;
 } catch (const Json::exception&) {

@@ -10,6 +10,7 @@
 
 #include "kith/live/live_study.hpp"
 #include "kith/live/room_event.hpp"
+#include "kith/live/room_phase.hpp"
 #include "kith/live/teaching_task.hpp"
 #include "kith/teaching/session.hpp"
 
@@ -60,9 +61,6 @@ struct Viewer {
   Role role = Role::kParticipant;
   std::size_t seat = 0;  ///< Of a participant, from 1.
 };
-
-/// The stage of a room.
-enum class RoomStage { kLobby, kRunning, kQuestions, kEnded };
 
 /// One group of people and stand-ins being taught: a pure state machine without clock, input or output.
 ///
