@@ -1,4 +1,5 @@
 // Names of what the page shows, and what its terms mean.
+import type { Stage } from '../live/protocol';
 import type { Estimate, Presence, RoomRow, RoomStage, SeatRow, Sentence, StudyInfo } from './protocol';
 
 export const kStages: Record<RoomStage, string> = {
@@ -16,25 +17,41 @@ export const kPresence: Record<Presence, string> = {
   empty: 'nobody yet',
 };
 
-const kPersonStages: Record<string, string> = {
-  consent: 'reading the consent form',
-  check: 'checking the keyboard',
-  screening: 'screening tests',
-  lobby: 'waiting in the lobby',
-  watch: 'watching',
-  predict: 'answering',
-  discuss: 'comparing predictions',
-  wait: 'waiting for the others',
-  feedback: 'reading feedback',
-  questions: 'answering questions',
-  debrief: 'finished',
-  declined: 'declined to take part',
-  full: 'turned away, room full',
-  ended: 'ended early',
-  replaced: 'replaced',
+// The stages of a person: what they do in it; where the group does, what the group does and what its limit is of.
+interface StageWords {
+  doing: string;
+  phase?: string;
+  limit?: string;
+}
+const kPersonStages: Record<Stage, StageWords> = {
+  consent: { doing: 'reading the consent form' },
+  check: { doing: 'checking the keyboard' },
+  screening: { doing: 'screening tests' },
+  lobby: { doing: 'waiting in the lobby', phase: 'Lobby' },
+  watch: { doing: 'watching', phase: 'Demonstrations', limit: 'demonstrations of a period' },
+  predict: { doing: 'answering', phase: 'Tests', limit: 'tests of a period' },
+  discuss: { doing: 'comparing predictions', phase: 'Discussion', limit: 'discussion of a period' },
+  wait: { doing: 'waiting for the others' },
+  feedback: { doing: 'reading feedback', phase: 'Feedback', limit: 'feedback' },
+  questions: { doing: 'answering questions', phase: 'Questions' },
+  debrief: { doing: 'finished' },
+  declined: { doing: 'declined to take part' },
+  full: { doing: 'turned away, room full' },
+  ended: { doing: 'ended early' },
+  replaced: { doing: 'replaced' },
+};
+const kOtherPhases: Record<string, string> = { teacher: 'Teacher chooses' };
+const kOtherLimits: Record<string, string> = {
+  lobby_s: 'lobby',
+  leave_after_s: 'a waiting person may leave with a code after',
+  max_minutes: 'whole session',
 };
 
-export const personStage = (stage: string): string => kPersonStages[stage] ?? stage;
+const wordsOf = (stage: string): StageWords | undefined => (kPersonStages as Record<string, StageWords>)[stage];
+export const personStage = (stage: string): string => wordsOf(stage)?.doing ?? stage;
+export const phaseName = (phase: string): string => wordsOf(phase)?.phase ?? kOtherPhases[phase] ?? upperFirst(phase);
+// What the limit of a study is of, by its key: "watch_s".
+export const limitName = (key: string): string => wordsOf(key.replace(/_s$/, ''))?.limit ?? kOtherLimits[key] ?? key;
 
 // What the log says of events; others are shown as they are.
 const kLogged: Record<string, string> = {

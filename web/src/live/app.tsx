@@ -46,7 +46,7 @@ export function App(): JSX.Element {
   if (full) {
     return (
       <Bare>
-        <Ended view={full} isSaved />
+        <Ended view={full} stage="full" isSaved />
       </Bare>
     );
   }
@@ -151,11 +151,13 @@ function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
     case 'full':
     case 'ended':
     case 'replaced':
-      return <Ended view={view} isSaved={isSaved} />;
-    default:
-      return null;
+      return <Ended view={view} stage={view.stage} isSaved={isSaved} />;
   }
+  return unknown(view.stage);
 }
+
+// A server that is newer than this page; a stage that this page knows has its screen above.
+const unknown = (_: never): null => null;
 
 function Connecting({ snapshot }: { snapshot: Snapshot }): JSX.Element {
   useTick();

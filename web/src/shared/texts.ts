@@ -1,4 +1,5 @@
 // All strings of the page, in the study's language. English is built in; what another language lacks is English.
+import type german from './texts/de.json';
 import english from './texts/en.json';
 import { transport } from './transport';
 
@@ -7,6 +8,13 @@ export interface TextsDocument {
   dir: 'ltr' | 'rtl';
   strings: Record<string, string>;
 }
+
+// A text, or one in several forms: "key.one" and "key.other" are those of "key".
+export type TextKey = WithBase<keyof typeof english>;
+type WithBase<Key> = Key extends `${infer Base}.${'zero' | 'one' | 'other'}` ? Base | Key : Key;
+// The languages that come with kith have every text.
+type Complete<Texts extends Record<keyof typeof english, string>> = Texts;
+export type German = Complete<typeof german>;
 
 const kBuiltIn: Record<string, string> = english;
 const kAvailable = ['de']; // languages with a file beside this script
@@ -24,7 +32,7 @@ function lookUp(key: string): string | undefined {
 
 // The text of a key with {names} filled in. With a number `n`, "key.one" and "key.other" (and what else the language
 // needs) are its forms, and "key.zero" is for nothing in every language.
-export function t(key: string, values: Values = {}): string {
+export function t(key: TextKey, values: Values = {}): string {
   const { n } = values;
   const zero = n === 0 ? lookUp(`${key}.zero`) : undefined;
   const form = zero ?? (typeof n === 'number' ? lookUp(`${key}.${plurals.select(n)}`) : undefined);
@@ -96,7 +104,7 @@ export const currentLanguage = (): string => language;
 // The server's own sentences are English.
 export const isEnglish = (): boolean => bare(language) === 'en';
 
-export const hasText = (key: string): boolean => lookUp(key) !== undefined;
+export const hasText = (key: string): key is TextKey => lookUp(key) !== undefined;
 
 const bare = (lang: string): string => lang.toLowerCase().split('-')[0] ?? 'en';
 

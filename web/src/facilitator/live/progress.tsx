@@ -4,7 +4,7 @@ import { duration } from '../../shared/duration';
 import { useNow } from '../clock';
 import type { RoomDetail, RoomRow, Timer } from '../protocol';
 import { Explained } from '../tip';
-import { upperFirst } from '../words';
+import { phaseName, upperFirst } from '../words';
 
 const kStatus = { open: 'not learned yet', learned: 'learned', skipped: 'skipped' };
 
@@ -43,22 +43,13 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
   );
 }
 
-const kPhases: Record<string, string> = {
-  lobby: 'Lobby',
-  teacher: 'Teacher chooses',
-  watch: 'Demonstrations',
-  predict: 'Tests',
-  discuss: 'Discussion',
-  feedback: 'Feedback',
-  questions: 'Questions',
-};
 const kTimers: Record<string, string> = { session: 'Session', pause: 'Paused', lobby: 'Lobby' };
 
 // How long the session has been running is in the bar above.
 const isShown = ({ name, until_ms }: Timer): boolean => name !== 'session' || until_ms !== undefined;
 
 const timerName = ({ name }: Timer, phase: string): string =>
-  name === 'phase' ? (kPhases[phase] ?? upperFirst(phase)) : (kTimers[name] ?? upperFirst(name));
+  name === 'phase' ? phaseName(phase) : (kTimers[name] ?? upperFirst(name));
 
 const isLate = ({ until_ms }: Timer, now: number): boolean => until_ms !== undefined && until_ms - now < 15_000;
 

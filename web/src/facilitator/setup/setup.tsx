@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import type { FacilitatorView, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
-import { policyText } from '../words';
+import { limitName, policyText } from '../words';
 import { LinkBox } from './link_box';
 import { MakeRooms } from './make_rooms';
 import { RoomLinks } from './room_links';
@@ -92,20 +92,10 @@ function StudyFacts({ study }: { study: StudyInfo }): JSX.Element {
   );
 }
 
-const kLimits: Record<string, string> = {
-  watch_s: 'demonstrations of a period',
-  predict_s: 'tests of a period',
-  feedback_s: 'feedback',
-  discuss_s: 'discussion of a period',
-  lobby_s: 'lobby',
-  leave_after_s: 'a waiting person may leave with a code after',
-  max_minutes: 'whole session',
-};
-
 const secondsText = (seconds: number): string => (seconds % 60 === 0 ? `${seconds / 60} min` : `${seconds} s`);
 
 const limitText = (name: string, value: number): string =>
-  `${kLimits[name] ?? name} ${name === 'max_minutes' ? `${value} min` : secondsText(value)}`;
+  `${limitName(name)} ${name === 'max_minutes' ? `${value} min` : secondsText(value)}`;
 
 function Rehearsal({ study }: { study: StudyInfo }): JSX.Element {
   return (

@@ -9,7 +9,7 @@ import { Button, CompletionCode, GoOn, Heading } from '../parts/ui';
 import type { Judged, ParticipantView } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { pathOf } from './feedback';
-import { hasText, isEnglish, sentence, t } from '../../shared/texts';
+import { hasText, isEnglish, sentence, t, type TextKey } from '../../shared/texts';
 
 interface DebriefProps extends ScreenProps {
   debrief: NonNullable<ParticipantView['debrief']>;
@@ -81,7 +81,7 @@ function Picture({ test, isAlone }: { test: Judged; isAlone?: boolean }): JSX.El
 
 function FirstAndLast({ first, last }: Memory): JSX.Element | null {
   if (!first || !last || JSON.stringify(first) === JSON.stringify(last)) return null;
-  const one = (test: Judged, key: string): JSX.Element => (
+  const one = (test: Judged, key: TextKey): JSX.Element => (
     <figure>
       <Picture test={test} />
       <figcaption>
@@ -100,8 +100,10 @@ function FirstAndLast({ first, last }: Memory): JSX.Element | null {
   );
 }
 
-export function Ended({ view, isSaved }: { view: ParticipantView; isSaved: boolean }): JSX.Element {
-  const { stage, end } = view;
+export type LastStage = 'declined' | 'full' | 'ended' | 'replaced';
+
+export function Ended({ view, stage, isSaved }: { view: ParticipantView; stage: LastStage; isSaved: boolean }): JSX.Element {
+  const { end } = view;
   const own = `end.reason.${end?.reason ?? ''}`; // the server's sentence is English
   const text = hasText(own) ? t(own) : end?.text && isEnglish() ? sentence(end.text) : t(`end.text.${stage}`);
   return (

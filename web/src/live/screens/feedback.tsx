@@ -7,7 +7,7 @@ import { Mark } from '../../shared/play/mark';
 import { Brackets, type Bracket } from '../../shared/play/brackets';
 import { Compare } from '../../shared/play/compare';
 import { Fan, stateAt } from '../../shared/play/fan';
-import { sentence, t } from '../../shared/texts';
+import { sentence, t, type TextKey } from '../../shared/texts';
 import { Explore } from '../parts/explore';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { remember } from '../memory';
@@ -140,12 +140,12 @@ export const pathOf = (frames: Frame[], from?: number, text?: string): Path => (
 });
 
 // What follows, to a group or to somebody alone.
-function nextKey({ learned, others_unsure }: Shown, size: number): string {
+function nextKey({ learned, others_unsure }: Shown, size: number): TextKey {
   if (others_unsure) return 'feedback.again_others';
   return `feedback.${learned ? 'learned' : 'again'}${size === 1 ? '_alone' : ''}`;
 }
 
-function leadKey({ right, mine, board, differs_at }: Judged): string {
+function leadKey({ right, mine, board, differs_at }: Judged): TextKey {
   if (right) return differs_at === null ? 'feedback.right' : 'feedback.right_other';
   if (!mine) return 'feedback.none';
   return board.map ? 'feedback.wrong' : 'feedback.wrong_plain';

@@ -4,7 +4,7 @@ import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
 import { codeOfLink } from '../session';
-import { t } from '../../shared/texts';
+import { hasText, t } from '../../shared/texts';
 
 interface Reply {
   token?: string;
@@ -61,6 +61,7 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
       .catch(() => setProblem('unreachable'))
       .finally(() => setJoining(false));
   };
+  const why = `landing.${problem}`; // a reason of the server
   return (
     <>
       <Heading quiet>{t('landing.title')}</Heading>
@@ -84,7 +85,7 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
           </button>
         </div>
         <p id="join-problem" role="alert" class="error">
-          {problem && t(`landing.${problem}`)}
+          {problem && t(hasText(why) ? why : 'landing.failed')}
         </p>
       </form>
       {onReturn && (

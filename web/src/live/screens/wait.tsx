@@ -11,7 +11,7 @@ export function Wait({ wait, view }: ScreenProps & { wait: Shown }): JSX.Element
     <>
       <Heading>{t(`wait.title.${wait.for}`)}</Heading>
       <p class="lead" role="status">
-        {t(`wait.why.${wait.for}${wait.for === 'teacher' && view.group.size === 1 ? '_alone' : ''}`, { n: wait.missing })}
+        {t(wait.for === 'teacher' && view.group.size === 1 ? 'wait.why.teacher_alone' : `wait.why.${wait.for}`, { n: wait.missing })}
       </p>
       <Since ms={wait.since_ms} />
       <TimeLeft until={view.limit_ms} />

@@ -16,7 +16,7 @@ import { useWorld } from '../world';
 import { RunsView, walked, type Runs } from '../../shared/play/runs';
 import type { ScreenProps } from '../screen';
 import { driveStore, keep, recall } from '../storage';
-import { t } from '../../shared/texts';
+import { t, type TextKey } from '../../shared/texts';
 import { isJobDone, onAndOn, playedText } from '../../shared/play/words';
 
 type Shown = NonNullable<ScreenProps['view']['watch']>;
@@ -207,5 +207,5 @@ function hint(wasSeen: boolean, path: Path, isDone: boolean): string {
   return t(isDone ? 'watch.done' : 'watch.over');
 }
 
-const leadKey = ({ board, runs }: Shown, wasSeen: boolean): string =>
+const leadKey = ({ board, runs }: Shown, wasSeen: boolean): TextKey =>
   wasSeen && runs ? 'watch.think_runs' : `watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`;

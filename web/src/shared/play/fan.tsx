@@ -53,9 +53,8 @@ export function Fan({ board, legend, world, state, own, other, isYours, costs }:
       const to = world.frame(next).robot;
       return here && to ? [{ from: here, to, kind, text: shareText(probability, true) }] : [];
     });
-  const whose = ['robot', isYours ? 'yours' : 'expected'];
   const saying = (action: number, i: number): string =>
-    t(`fan.${whose[i] ?? ''}${world.actions[action]?.shift ? '' : '_does'}`, { action: actionLabel(world.actions[action]?.name ?? '') });
+    t(`fan.${i === 0 ? 'robot' : isYours ? 'yours' : 'expected'}${world.actions[action]?.shift ? '' : '_does'}`, { action: actionLabel(world.actions[action]?.name ?? '') });
   return (
     <div class="fan">
       <p>{t('fan.title')}</p>

@@ -13,7 +13,10 @@ export function countsOf(frames: Frame[], upTo = frames.length - 1): number[] {
   return sums;
 }
 
-export const labelOf = ({ name, label }: Counted): string => (hasText(`count.${name}`) ? t(`count.${name}`) : label);
+export function labelOf({ name, label }: Counted): string {
+  const key = `count.${name}`;
+  return hasText(key) ? t(key) : label;
+}
 
 export const rounded = (n: number): string => String(Math.round(100 * n) / 100);
 

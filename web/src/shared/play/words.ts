@@ -16,7 +16,8 @@ function directionOf(from: Place, to: Place): string {
 // "rubble", "the charger": what a thing is called inside a sentence.
 function phrase({ kind, name }: Part): string {
   if (kind === 'destination') return t('thing.destination', { name: named(name.replace(/^destination of /, '')) });
-  if (kind === 'terrain' && hasText(`phrase.${name}`)) return t(`phrase.${name}`);
+  const own = `phrase.${name}`;
+  if (kind === 'terrain' && hasText(own)) return t(own);
   if (kind === 'terrain' && name.includes(' and ')) return listed(name.split(' and ').map((one) => phrase({ kind, name: one })));
   return t(`thing.${kind}`, { name: named(name) });
 }
