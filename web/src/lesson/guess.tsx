@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { kMoves } from '../shared/board/geometry';
 import type { Path } from '../shared/board/types';
 import { BoardPane, Things } from '../shared/play/board_pane';
-import { Driver } from '../shared/play/driver';
+import { BoardAlone, Driver } from '../shared/play/driver';
 import { useDrive } from '../shared/play/drive';
 import { Button } from '../shared/play/button';
 import { Pad } from '../shared/play/pad';
@@ -33,9 +33,9 @@ export function Guessing({ shown, submit, skip, onGuess, domain, legend, worlds 
   const skipped = <Button onClick={() => onGuess({ mine: null, verdict: null })}>{skip}</Button>;
   if (!world) {
     return (
-      <Driver board={board} legend={legend} world={null} drive={null} off end="" stopped="" waiting={<div class="submit">{skipped}</div>}>
-        {null}
-      </Driver>
+      <BoardAlone board={board} legend={legend}>
+        <div class="submit">{skipped}</div>
+      </BoardAlone>
     );
   }
   const View = asked === 'path' ? Driving : Moving;
@@ -110,7 +110,6 @@ function Driving({ shown, submit, onGuess, legend, worlds, board, world, skipped
       world={world}
       drive={drive}
       off={false}
-      waiting={null}
       end={t('check.end')}
       stopped={t('check.stopped')}
       isForEver={isForEver}

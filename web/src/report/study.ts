@@ -3,6 +3,12 @@ import { type Report, type Row, type Table, factorKeys, firstVariant, toRows } f
 import { type Look, Palette } from './palette';
 import { Words } from './words';
 
+interface Panels {
+  looks: Look[];
+  panels: { title: string; means: Row[] }[];
+  strategyOf: (row: Row) => string;
+}
+
 export class Study {
   readonly words: Words;
   readonly palette: Palette;
@@ -36,6 +42,19 @@ export class Study {
 
   looks(rows: Row[]): Look[] {
     return this.palette.looksOf(rows.map((row) => String(row.strategy)));
+  }
+
+  // Of a figure with one panel per code of a column, a row per strategy in each.
+  panelsBy(column: 'composition' | 'kc', rows: Row[]): Panels {
+    const codes = column === 'kc' ? this.codes(rows, column) : this.compositions(rows);
+    return {
+      looks: this.looks(rows),
+      panels: codes.map((code) => ({
+        title: column === 'kc' ? componentName(code) : code,
+        means: rows.filter((row) => String(row[column]) === code),
+      })),
+      strategyOf: (row) => this.words.strategy(row.strategy),
+    };
   }
 }
 

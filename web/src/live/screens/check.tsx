@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { useDrive } from '../../shared/play/drive';
-import { Driver } from '../../shared/play/driver';
+import { BoardAlone, Driver } from '../../shared/play/driver';
 import { Job, useLegend } from '../../shared/play/board_pane';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
@@ -90,18 +90,9 @@ function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
       {world ? (
         <Trying {...props} world={world} start={check.start ?? plain?.start ?? 0} legend={legend} />
       ) : (
-        <Driver
-          board={check.board}
-          legend={legend}
-          world={null}
-          drive={null}
-          off
-          end=""
-          stopped=""
-          waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
-        >
-          {null}
-        </Driver>
+        <BoardAlone board={check.board} legend={legend}>
+          <p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>
+        </BoardAlone>
       )}
     </>
   );
@@ -127,7 +118,6 @@ function Trying({ check, world, start, legend, connection }: TryingProps): JSX.E
       world={world}
       drive={drive}
       off={off}
-      waiting={null}
       end={t('check.end')}
       stopped={t('check.stopped')}
     >

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
 import { useDrive, type Drive } from '../../shared/play/drive';
-import { Driver } from '../../shared/play/driver';
+import { BoardAlone, Driver } from '../../shared/play/driver';
 import { Job, useLegend, WorldName } from '../../shared/play/board_pane';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import type { Task } from '../protocol';
@@ -34,18 +34,9 @@ export function Predict(props: Props): JSX.Element {
       {world ? (
         <Answering {...props} world={world} legend={legend} />
       ) : (
-        <Driver
-          board={task.board}
-          legend={legend}
-          world={null}
-          drive={null}
-          off
-          end=""
-          stopped=""
-          waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
-        >
-          {null}
-        </Driver>
+        <BoardAlone board={task.board} legend={legend}>
+          <p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>
+        </BoardAlone>
       )}
     </>
   );
@@ -83,7 +74,6 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
       world={world}
       drive={drive}
       off={off}
-      waiting={null}
       end={t('predict.end')}
       stopped={t('predict.stopped')}
       isForEver={isForEver}

@@ -1,9 +1,9 @@
 // One demonstration: the robot moves when asked to, and its path is drawn only as far as it has gone.
 import type { JSX } from 'preact';
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import { BoardInWords, BoardPane, Job, Things, useLegend, WorldName } from '../../shared/play/board_pane';
 import { countsOf, Ledger } from '../../shared/play/ledger';
-import { LogView, useLog } from '../../shared/play/log';
+import { LogView, usePathLog } from '../../shared/play/log';
 import { Player, usePacedPlayback } from '../../shared/play/player';
 import { StateCard, StepList } from '../../shared/play/steps';
 import { Button, Heading, TimeLeft } from '../parts/ui';
@@ -17,7 +17,7 @@ import { RunsView, walked, type Runs } from '../../shared/play/runs';
 import type { ScreenProps } from '../screen';
 import { driveStore, keep, recall } from '../storage';
 import { t, type TextKey } from '../../shared/texts';
-import { isJobDone, onAndOn, playedText } from '../../shared/play/words';
+import { isJobDone, onAndOn } from '../../shared/play/words';
 
 type Shown = NonNullable<ScreenProps['view']['watch']>;
 
@@ -67,7 +67,6 @@ function Sketching({ world, watch, name, onDone }: SketchingProps): JSX.Element 
       world={world}
       drive={drive}
       off={false}
-      waiting={null}
       end={t('check.end')}
       stopped={t('check.stopped')}
     >
@@ -139,13 +138,7 @@ function WatchingPath({ sketch, wasSeen, onSeen, ...props }: WatchingProps & See
   const legend = useLegend(board.domain);
   const playback = usePacedPlayback(Math.max(0, frames.length - 1));
   const { step, last } = playback;
-  const log = useLog(t('watch.start'));
-  const shown = useRef(0);
-  useLayoutEffect(() => {
-    if (step === shown.current) return;
-    shown.current = step;
-    log.say(playedText(board, legend, watch, step));
-  }, [step]);
+  const log = usePathLog(board, legend, watch, step);
   useLayoutEffect(() => {
     if (step === last) onSeen();
   }, [step, last]);

@@ -1,6 +1,6 @@
 // The manipulation check: how much do the demonstrations of a strategy convey?
 import type { Cell, Row } from '../document';
-import { type Study, componentName, rowsOf } from '../study';
+import { type Study, rowsOf } from '../study';
 import { dots } from './dots';
 import type { Figure } from './figure';
 import { counted, range } from './gist';
@@ -24,17 +24,13 @@ function byComponent(study: Study): Figure[] {
       spec: (width) =>
         dots(
           {
-            looks: study.looks(rows),
-            panels: study
-              .codes(rows, 'kc')
-              .map((kc) => ({ title: componentName(kc), means: rows.filter((row) => String(row.kc) === kc) })),
+            ...study.panelsBy('kc', rows),
             mean: 'area',
             low: 'low',
             high: 'high',
             xTitle: 'Area left (sr, log scale)',
             zero: false,
             log: true,
-            strategyOf: (row) => study.words.strategy(row.strategy),
           },
           width,
         ),
@@ -59,16 +55,12 @@ function byComposition(study: Study): Figure[] {
       spec: (width) =>
         dots(
           {
-            looks: study.looks(rows),
-            panels: study
-              .compositions(rows)
-              .map((code) => ({ title: code, means: rows.filter((row) => row.composition === code) })),
+            ...study.panelsBy('composition', rows),
             mean: 'mean_area_sr',
             low: 'low',
             high: 'high',
             xTitle: 'Mean area (sr)',
             zero: false,
-            strategyOf: (row) => study.words.strategy(row.strategy),
           },
           width,
         ),

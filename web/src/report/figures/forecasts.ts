@@ -104,17 +104,13 @@ function periodFigures(study: Study): Figure[] {
       spec: (width) =>
         dots(
           {
-            looks: study.looks(rows),
-            panels: study
-              .compositions(rows)
-              .map((code) => ({ title: code, means: rows.filter((row) => row.composition === code) })),
+            ...study.panelsBy('composition', rows),
             mean: 'forecast_mean',
             low: 'forecast_low',
             high: 'forecast_high',
             xTitle: 'Periods',
             interval: '80 %',
             zero: true,
-            strategyOf: (row) => study.words.strategy(row.strategy),
           },
           width,
         ),

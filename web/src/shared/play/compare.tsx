@@ -1,17 +1,15 @@
 // The robot's path and another one from the same start: both drawn, with the place where they separate and what each
 // has more of; both robots go from there by themselves.
 import type { ComponentChildren, JSX } from 'preact';
-import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { Legend } from '../board/legend';
 import { closedAt, played } from '../board/repeats';
 import type { Frame, Path, PlayBoard } from '../board/types';
 import { t } from '../texts';
 import { BoardInWords, BoardPane, Things } from './board_pane';
 import { chipsOf, countsOf, Ledger } from './ledger';
-import { LogView, useLog } from './log';
+import { LogView, usePathLog } from './log';
 import { Player, usePacedPlayback } from './player';
 import { StateCard, StepList } from './steps';
-import { playedText } from './words';
 
 interface Props {
   board: PlayBoard;
@@ -34,13 +32,7 @@ export function Compare(props: Props): JSX.Element {
   const last = Math.max(robot.length, other?.length ?? 0, 1) - 1;
   const playback = usePacedPlayback(last, other && at !== null ? { from: at, isAuto: !isStill } : { from: 0, isAuto: false, isAtEnd: true });
   const { step } = playback;
-  const log = useLog(t('watch.start'));
-  const shown = useRef(0);
-  useLayoutEffect(() => {
-    if (step === shown.current) return;
-    shown.current = step;
-    if (step < robot.length) log.say(playedText(board, legend, props.robot, step));
-  }, [step]);
+  const log = usePathLog(board, legend, props.robot, step);
   const decisive = at === null || !other ? null : { frame: at, ...cellOf(robot[at]) };
   const robotStep = Math.min(step, robot.length - 1);
   const isOver = step === last;

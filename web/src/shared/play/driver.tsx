@@ -21,38 +21,33 @@ const kRepeatMs = 140; // between steps while a key is held down
 interface Props {
   board: PlayBoard;
   legend: Legend;
-  world: World | null; // while it is being fetched, only the board is there
-  drive: Drive | null;
+  world: World;
+  drive: Drive;
   off: boolean;
   end: string; // what is said when the robot has finished
   stopped: string; // when it has come to an end elsewhere
   isForEver?: boolean; // the path is said to go on like this for ever
   children: ComponentChildren; // below the pad
-  waiting: ComponentChildren; // there until the world has loaded
   isOneOfMany?: boolean; // other boards on the page want keys, too: those pressed on the board are for it
 }
 
-export function Driver(props: Props): JSX.Element {
-  const { board, world, drive } = props;
-  if (!world || !drive) {
-    const legend = props.legend;
-    return (
-      <div class="board-screen">
-        <div class="board-column">
-          {board.map ? (
-            <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
-          ) : (
-            <StateCard frame={board.start} />
-          )}
-        </div>
-        <div class="side">{props.waiting}</div>
+// While the world is being fetched, only the board is there.
+export function BoardAlone({ board, legend, children }: { board: PlayBoard; legend: Legend; children: ComponentChildren }): JSX.Element {
+  return (
+    <div class="board-screen">
+      <div class="board-column">
+        {board.map ? (
+          <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
+        ) : (
+          <StateCard frame={board.start} />
+        )}
       </div>
-    );
-  }
-  return <Driving {...props} world={world} drive={drive} />;
+      <div class="side">{children}</div>
+    </div>
+  );
 }
 
-function Driving({ board, legend, world, drive, off, isForEver, isOneOfMany, children, ...said }: Props & { world: World; drive: Drive }): JSX.Element {
+export function Driver({ board, legend, world, drive, off, isForEver, isOneOfMany, children, ...said }: Props): JSX.Element {
   const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
   const end = isJobDone(board, legend, drive.frames.at(-1)) ? said.end : said.stopped;
   const tell = useTelling({ board, legend, drive, log, end });

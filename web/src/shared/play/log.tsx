@@ -1,6 +1,11 @@
 // What happens on a board, sentence by sentence: the last one is visible, a screen reader hears them all.
 import type { JSX } from 'preact';
-import { useCallback, useState } from 'preact/hooks';
+import { useCallback, useLayoutEffect, useRef, useState } from 'preact/hooks';
+import type { Legend } from '../board/legend';
+import { played } from '../board/repeats';
+import type { Path, PlayBoard } from '../board/types';
+import { t } from '../texts';
+import { playedText } from './words';
 
 export interface Log {
   entries: { number: number; text: string }[];
@@ -18,6 +23,18 @@ export function useLog(first: string): Log {
     });
   }, []);
   return { entries, say };
+}
+
+// A log of a path that is played: a sentence when the robot has taken a step.
+export function usePathLog(board: PlayBoard, legend: Legend, path: Path, step: number): Log {
+  const log = useLog(t('watch.start'));
+  const shown = useRef(0);
+  useLayoutEffect(() => {
+    if (step === shown.current) return;
+    shown.current = step;
+    if (step < played(path).length) log.say(playedText(board, legend, path, step));
+  }, [step]);
+  return log;
 }
 
 export function LogView({ log }: { log: Log }): JSX.Element {
