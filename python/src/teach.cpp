@@ -71,8 +71,7 @@ Assignment assignment_of(const Domain& domain, std::string group, std::size_t me
   if (!is_there) spec.strategies.push_back(strategy_named(strategy, own.strategies()));
   spec.seed = seed;
   spec.factors.clear();
-  spec.num_features = domain.num_features();
-  spec.count_scale = domain.count_scale();
+  take_domain(spec, domain);
   return {std::move(spec), {0, strategy, std::move(group), 1, 1}};
 }
 

@@ -425,8 +425,7 @@ Outcomes study_of(const Atlas& atlas, std::size_t replicates, std::uint64_t seed
   spec.id = "law";
   spec.seed = seed;
   spec.replicates = replicates;
-  spec.num_features = atlas.domain().num_features();
-  spec.count_scale = atlas.domain().count_scale();
+  take_domain(spec, atlas.domain());
   spec.strategies = {strategy_named("common")};
   spec.compositions = {"N"};
   LearnerType type{.letter = 'N', .label = {}};

@@ -224,8 +224,7 @@ class Inspection {
     heading("How long things take with this robot here");
     auto spec = study_of("paper", {}).study->variants.front();
     spec.domain = domain_.id();
-    spec.num_features = domain_.num_features();
-    spec.count_scale = domain_.count_scale();
+    take_domain(spec, domain_);
     spec.strategies = {strategy_named("common")};
     spec.compositions = {"NNP"};
     constexpr std::size_t kTeams = 300;

@@ -70,8 +70,7 @@ Assignment from_options(const TeachOptions& options) {
   spec.seed = options.seed;
   spec.factors.clear();
   auto domain = load_domain(options.domain);
-  spec.num_features = domain.num_features();
-  spec.count_scale = domain.count_scale();
+  take_domain(spec, domain);
   return {std::move(domain), spec, {0, options.strategy, options.group, 1, 1}};
 }
 

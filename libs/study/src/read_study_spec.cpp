@@ -34,8 +34,7 @@ class SpecReader {
 
   StudySpec read() {
     if (domain_ != nullptr) {
-      spec_.num_features = domain_->num_features();
-      spec_.count_scale = domain_->count_scale();
+      take_domain(spec_, *domain_);
       // The mass in the policy's class is 0 for everybody there.
       if (spec_.num_features > 3) spec_.exam = ExamLevel::kEnd;
     }

@@ -5,6 +5,11 @@
 
 namespace kith {
 
+void take_domain(StudySpec& spec, const Domain& domain) {
+  spec.num_features = domain.num_features();
+  spec.count_scale = domain.count_scale();
+}
+
 bool has_costs(const StudySpec& spec) noexcept {
   return spec.exam != ExamLevel::kNone || spec.grouping != Grouping::kTogether || spec.teaching.release.has_value() ||
          spec.forecast_sessions > 0;

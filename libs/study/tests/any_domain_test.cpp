@@ -73,8 +73,7 @@ Study study_for(const Domain& domain) {
   spec.id = "any";
   spec.seed = 3;
   spec.replicates = 2;
-  spec.num_features = domain.num_features();
-  spec.count_scale = domain.count_scale();
+  take_domain(spec, domain);
   for (const auto* name : {"baseline", "individual-low", "common", "joint"}) {
     spec.strategies.push_back(strategy_named(name));
   }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kith/domains/domain.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/learners/pace.hpp"
@@ -117,6 +118,9 @@ struct StudySpec {
   bool has_group = false;                  ///< Whether the file has `[group]`.
   GroupOptions group{};                    ///< For sessions with people; changes nothing in how the study is simulated.
 };
+
+/// Takes over what a study has to know of its domain.
+void take_domain(StudySpec& spec, const Domain& domain);
 
 /// Whether what teaching costs is written down: with exams, and where not everybody is taught all the time.
 [[nodiscard]] bool has_costs(const StudySpec& spec) noexcept;
