@@ -343,8 +343,8 @@ class AuditText {
                      percent(found.probability), found.fact),
          5);
     for (const auto& answer : found.answers) {
-      line(fmt::format("period {}, test {} (world {}), predicted: {}", answer.period, answer.test,
-                       atlas_.id(answer.demo).mdp.value(), answer.text),
+      line(fmt::format("period {}, test {} ({}), predicted: {}", answer.period, answer.test,
+                       world_text(atlas_.domain(), atlas_.id(answer.demo).mdp), answer.text),
            7);
     }
     if (found.show) {
@@ -354,7 +354,7 @@ class AuditText {
 
   [[nodiscard]] std::string place(StartIndex demo) const {
     const auto id = atlas_.id(demo);
-    return fmt::format("world {}, start {}", id.mdp.value(), id.start.value());
+    return fmt::format("{}, start {}", world_text(atlas_.domain(), id.mdp), id.start.value());
   }
 
   const Atlas& atlas_;

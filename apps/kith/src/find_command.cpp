@@ -128,7 +128,7 @@ Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
       fmt::format("it has no map; kith export --mdp {} writes it, with a domain file beside it", world.value());
   return infeasible(
       "E1112",
-      fmt::format("world {} of '{}' cannot be written as a domain file of its own", world.value(), domain.id()),
+      fmt::format("{} of '{}' cannot be written as a domain file of its own", world_text(domain, world), domain.id()),
       domain.map() ? "its [map] has to be written by hand: one map, nothing optional" : by_export);
 }
 

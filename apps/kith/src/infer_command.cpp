@@ -87,8 +87,7 @@ class InferenceText {
   void heading(const std::string& text) { out_ += "\n" + console_.bold(text) + "\n"; }
 
   [[nodiscard]] std::string place(StartId id) const {
-    return (domain_.num_mdps() > 1 ? fmt::format("world {}: ", id.mdp.value()) : "") +
-           domain_.state_name(id.mdp, id.start);
+    return (domain_.num_mdps() > 1 ? world_text(domain_, id.mdp) + ": " : "") + domain_.state_name(id.mdp, id.start);
   }
 
   [[nodiscard]] std::size_t shown_of(std::size_t count) const { return all_ ? count : std::min(count, kShownStates); }

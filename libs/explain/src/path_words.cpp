@@ -35,17 +35,10 @@ std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajecto
          " % chance";
 }
 
-namespace {
-
-std::string with_name(const std::string& kind, const Domain& domain, MdpIndex m) {
+std::string world_text(const Domain& domain, MdpIndex m) {
   const auto name = domain.world_name(m);
-  return kind + " " + std::to_string(m.value()) + (name.empty() ? "" : " (" + name + ")");
+  return "world " + std::to_string(m.value()) + (name.empty() ? "" : " (" + name + ")");
 }
-
-}  // namespace
-
-std::string mdp_text(const Domain& domain, MdpIndex m) { return with_name("MDP", domain, m); }
-std::string world_text(const Domain& domain, MdpIndex m) { return with_name("world", domain, m); }
 
 std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions) {
   std::string text;

@@ -303,8 +303,8 @@ class Page {
     if (found.answers.empty()) return;
     out_ += tag("p", found.answers.size() == 1 ? "The answer that shows it:" : "Answers that show it:") + "<ul>\n";
     for (const auto& answer : found.answers) {
-      out_ += tag("li", fmt::format("period {}, test {} (world {}), predicted: {}", answer.period, answer.test,
-                                    atlas_.id(answer.demo).mdp.value(), answer.text));
+      out_ += tag("li", fmt::format("period {}, test {} ({}), predicted: {}", answer.period, answer.test,
+                                    world_text(atlas_.domain(), atlas_.id(answer.demo).mdp), answer.text));
     }
     out_ += "</ul>\n";
   }
@@ -326,7 +326,7 @@ class Page {
     const auto id = atlas_.id(demo);
     const auto path = atlas_.trajectory(demo);
     const auto caption =
-        fmt::format("{}: world {}, start {}{}{}. The robot: {}.", purpose, id.mdp.value(), id.start.value(),
+        fmt::format("{}: {}, start {}{}{}. The robot: {}.", purpose, world_text(domain_, id.mdp), id.start.value(),
                     text.empty() ? "" : "; ", text, actions_text(domain_, id.mdp, path));
     std::string picture;
     if (boards_) {

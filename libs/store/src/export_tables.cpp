@@ -86,7 +86,7 @@ void declare(TableOf<PeriodRow>& table) {
       .column(&R::digest, {"digest", "Digest of lesson and beliefs, compared in every replay."});
 }
 
-void declare(TableOf<TestRow>& table) {
+void declare(TableOf<TestRow>& table, const SessionExportOptions& options) {
   using namespace columns;
   using R = TestRow;
   table.column(&R::session, kSessionWords)
@@ -97,8 +97,9 @@ void declare(TableOf<TestRow>& table) {
       .column(&R::member, {kMember, "Place in the group, from 1."})
       .column(&R::type, {kType, "Letter of the learner type."})
       .column(&R::strategy, {kStrategy, "Strategy of the room."})
-      .column(&R::mdp, {kMdp, "Number of the world."})
-      .column(&R::start, {kStart, "State in which the test begins."})
+      .column(&R::mdp, {kMdp, "Number of the world."});
+  if (options.with_world_names) table.column(&R::mdp_name, {"mdp_name", "Its name; missing if it has none."});
+  table.column(&R::start, {kStart, "State in which the test begins."})
       .column(&R::path, {"path",
                          "Names of the actions of the answer, separated by blanks; ... behind them if they go on like "
                          "this for ever."})
@@ -135,7 +136,7 @@ ExportTables::ExportTables(const SessionExportOptions& options)
   declare(sessions);
   declare(participants, options);
   declare(periods);
-  declare(tests);
+  declare(tests, options);
   declare(discussions);
 
   keys.column(&KeyRow::session, kSessionWords)

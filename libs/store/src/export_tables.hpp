@@ -62,7 +62,9 @@ struct TestRow {
   std::string session;
   std::size_t period, component, test, seat, member;
   std::string type, strategy;
-  std::size_t mdp, start;
+  std::size_t mdp;
+  std::optional<std::string> mdp_name{};
+  std::size_t start;
   std::optional<std::string> path{};
   std::size_t actions;
   std::optional<bool> correct{};

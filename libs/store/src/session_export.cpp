@@ -300,6 +300,7 @@ class Exporter {
                   .type = type_of(test.member).value_or(""),
                   .strategy = setup().strategy,
                   .mdp = place.mdp.value(),
+                  .mdp_name = if_any(atlas_.domain().world_name(place.mdp)),
                   .start = place.start.value(),
                   .actions = 0,
                   .at_ms = ms_of(answer != nullptr ? answer->at_us : lesson_row->chosen_us)};
@@ -502,6 +503,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
                             const SessionExportOptions& options, const ExportSink& sink) {
   auto told = options;
   told.with_discussions = study->group().discussion.choice.is_held();
+  told.with_world_names = !study->spec.world_names.empty();
   Exporter exporter{study, told, sink};
   std::size_t rooms = 0;
   std::size_t events = 0;

@@ -51,6 +51,7 @@ bool has_belief_quality(const Study& study) {
 bool has_subgroups(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.grouping != Grouping::kTogether; });
 }
+bool has_world_names(const Study& study) { return !study.variants.front().world_names.empty(); }
 bool all_have_ability(const Study& study) {
   const auto types = types_of(study);
   return std::all_of(types.begin(), types.end(), [](const auto* type) { return type->model->has_ability; });

@@ -82,19 +82,11 @@ class RecordColumns {
   void derived(Function function, const ColumnWords& words, const RecordColumn& options = {}) {
     if (options.when != nullptr && !options.when(study_)) return;
     using Record = std::remove_cvref_t<decltype(*find_(std::declval<const Row&>()))>;
-    using Value = std::remove_cvref_t<std::invoke_result_t<const Function&, const Record&>>;
-    using Held = detail::CellType<Value>;
-    // Texts are only looked at.
-    using Type = std::conditional_t<std::is_reference_v<std::invoke_result_t<const Function&, const Record&>> &&
-                                        std::same_as<typename Held::Type, std::string>,
-                                    std::string_view, typename Held::Type>;
-    const auto cell = [find = find_, function](const Row& row) -> std::optional<Type> {
-      const Record* record = find(row);
-      if (record == nullptr) return std::nullopt;
-      return std::invoke(function, *record);
-    };
-    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
-    table_.column(cell, words, {.required = required, .before = options.before});
+    if constexpr (std::invocable<const Function&, const Record&, const Study&>) {
+      derived([function, &study = study_](const Record& record) { return function(record, study); }, words, options);
+    } else {
+      add(function, words, options);
+    }
   }
 
   template <typename Values, typename Record>
@@ -143,6 +135,24 @@ class RecordColumns {
   }
 
  private:
+  template <typename Function>
+  void add(Function function, const ColumnWords& words, const RecordColumn& options) {
+    using Record = std::remove_cvref_t<decltype(*find_(std::declval<const Row&>()))>;
+    using Value = std::remove_cvref_t<std::invoke_result_t<const Function&, const Record&>>;
+    using Held = detail::CellType<Value>;
+    // Texts are only looked at.
+    using Type = std::conditional_t<std::is_reference_v<std::invoke_result_t<const Function&, const Record&>> &&
+                                        std::same_as<typename Held::Type, std::string>,
+                                    std::string_view, typename Held::Type>;
+    const auto cell = [find = find_, function](const Row& row) -> std::optional<Type> {
+      const Record* record = find(row);
+      if (record == nullptr) return std::nullopt;
+      return std::invoke(function, *record);
+    };
+    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
+    table_.column(cell, words, {.required = required, .before = options.before});
+  }
+
   TableOf<Row>& table_;
   const Study& study_;
   Find find_;

@@ -1,12 +1,17 @@
 // Teams are taught in domains of two to eight features, discounted or not, with tables and without.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "domain_texts.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/study/study.hpp"
+#include "kith/study/tables.hpp"
 
 namespace kith {
 namespace {
@@ -137,6 +142,42 @@ TEST(AnyDomain, DiscountedOnesAreTaught) {
   std::string text{kFourFeatures};
   const std::string from = "discount = 1.0";
   expect_taught(Atlas{domain_from(text.replace(text.find(from), from.size(), "discount = 0.97"))});
+}
+
+// A header and the rows below it.
+std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines{csv};
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells{line};
+    for (rows.emplace_back(); std::getline(cells, line, ',');) rows.back().push_back(line);
+  }
+  return rows;
+}
+
+TEST(AnyDomain, TablesNameWorldsThatHaveNames) {
+  const std::string listed =
+      "[[family.world]]\nname = \"all clear\"\npresent = []\n"
+      "[[family.world]]\npresent = [\"rubble\"]\n"
+      "[[family.world]]\nname = \"after the storm\"\npresent = [\"smoke\", \"charger\"]\n";
+  for (const bool has_names : {true, false}) {
+    const Atlas atlas{domain_from(kFourFeatures + (has_names ? listed : ""))};
+    const auto study = study_for(atlas.domain());
+    const auto teams = run_teams(atlas, study, team_addresses(study)).teams;
+    std::map<std::string, std::string, std::less<>> tables;
+    write_study_tables(study, teams,
+                       [&](std::string_view file, std::string_view piece) { tables[std::string{file}] += piece; });
+    for (const auto* file : {"responses.csv", "demonstrations.csv"}) {
+      const auto rows = cells_of(tables.at(file));
+      ASSERT_GT(rows.size(), 1u);
+      const auto mdp = std::ranges::find(rows[0], "mdp") - rows[0].begin();
+      ASSERT_EQ(std::ranges::count(rows[0], "mdp_name"), has_names ? 1 : 0) << file;
+      for (std::size_t i = 1; has_names && i < rows.size(); ++i) {
+        const MdpIndex m{std::stoul(rows[i].at(static_cast<std::size_t>(mdp)))};
+        EXPECT_EQ(rows[i].at(static_cast<std::size_t>(mdp) + 1), atlas.domain().world_name(m));
+      }
+    }
+  }
 }
 
 }  // namespace

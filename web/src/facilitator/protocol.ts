@@ -73,6 +73,7 @@ export interface BoardView {
   world: number;
   map?: string[];
   fences?: [Place, Place][];
+  world_name?: string;
   start: Frame;
 }
 

@@ -7,7 +7,7 @@ import { BoardView as BoardDrawing } from '../../shared/board/board';
 import { Patterns } from '../../shared/board/glyphs';
 import { closedAt, played } from '../../shared/board/repeats';
 import { Legend } from '../../shared/board/legend';
-import type { Board, MapDomain } from '../../shared/board/types';
+import { worldText, type Board, type MapDomain } from '../../shared/board/types';
 import { useCalm, usePlayback } from '../../shared/playback';
 import type { BoardView, Frame, LessonNow, RunnerUp, ShownBoard } from '../protocol';
 import { Explained } from '../tip';
@@ -155,7 +155,7 @@ function Runner({ runner, most, chosen }: { runner: RunnerUp; most: number; chos
       data-tip={`Gain ${runner.gain.toFixed(2)} (shown: ${chosen.toFixed(2)}). It would have shown that ${says || 'nothing new holds'}.`}
     >
       {board.map ? (
-        <BoardDrawing domain={domain} legend={legend} board={board} step={0} label={`World ${runner.board.world}, gain ${runner.gain.toFixed(2)}: ${says}`} />
+        <BoardDrawing domain={domain} legend={legend} board={board} step={0} label={`${worldText(runner.board)}, gain ${runner.gain.toFixed(2)}: ${says}`} />
       ) : (
         <span>{runner.board.start.state}</span>
       )}

@@ -4,6 +4,7 @@ import { BoardView } from '../../shared/board/board';
 import { Patterns } from '../../shared/board/glyphs';
 import { Legend } from '../../shared/board/legend';
 import { closedAt, played } from '../../shared/board/repeats';
+import { worldText } from '../../shared/board/types';
 import type { Words } from '../words';
 import { BracketChart, KnowledgeChart } from './charts';
 import { bracketsOf, type Lessons, type PeriodRow, type TeamRow } from './lessons';
@@ -129,7 +130,7 @@ function Thumb(props: { lessons: Lessons; legend: Legend; board: number; caption
   const board = props.lessons.boards[props.board];
   if (!board) return <span />;
   const frames = played(board);
-  const label = `World ${board.world}: ${board.text}`;
+  const label = `${worldText(board)}: ${board.text}`;
   return (
     <figure class={(props.lessons.domain.width ?? 0) > kWide ? 'thumb wide' : 'thumb'}>
       <figcaption>

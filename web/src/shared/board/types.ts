@@ -45,6 +45,9 @@ export interface Board extends Path {
   start: Frame;
 }
 
+// "World 3", with its name if it has one: "World 3 (visiting hours)".
+export const worldText = (board: { world: number; world_name?: string }): string => `World ${board.world}${board.world_name ? ` (${board.world_name})` : ''}`;
+
 // A world before anybody has moved. Nothing in it tells of the reward.
 export interface PlayBoard {
   domain: MapDomain;

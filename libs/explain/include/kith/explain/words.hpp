@@ -97,9 +97,7 @@ struct CountedAs {
 [[nodiscard]] std::string listed(const std::vector<std::string>& things);
 /// "(2,1)": column and row from the top left, as in everything that kith prints.
 [[nodiscard]] std::string cell_text(const GridMap& map, const Cell& cell);
-/// "MDP 3", with the name that the file gives it: "MDP 3 (visiting hours)".
-[[nodiscard]] std::string mdp_text(const Domain& domain, MdpIndex m);
-/// The same as people are told: "world 3 (visiting hours)".
+/// "world 3", with the name that the file gives it: "world 3 (visiting hours)".
 [[nodiscard]] std::string world_text(const Domain& domain, MdpIndex m);
 /// What the robot does with an action: "goes up", "picks it up", "leaves".
 [[nodiscard]] std::string action_words(const std::string& action);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +14,8 @@
 ///
 ///   fields.column(member, words, options)  a member that the journal keeps and a column shows
 ///   fields.columns(member, list, options)  a member that the journal keeps, with one column per value
-///   fields.derived(function, words)        a column that follows from others; the journal does not keep it
+///   fields.derived(function, words)        a column that follows from others; the journal does not keep it. The
+///                                          function may also take the study
 ///   fields.part(member, options)           a member that is a record with lines of its own, or an optional one
 ///   fields.kept(member, since)             a member that only the journal keeps, such as the rows of other tables
 ///   fields.traits(member)                  the traits of a person, as their learner model names them
@@ -38,6 +40,7 @@ struct RecordColumn {
 [[nodiscard]] bool has_discussions(const Study& study);
 [[nodiscard]] bool has_belief_quality(const Study& study);
 [[nodiscard]] bool has_subgroups(const Study& study);
+[[nodiscard]] bool has_world_names(const Study& study);
 /// Whether the learner models of all types have an ability.
 [[nodiscard]] bool all_have_ability(const Study& study);
 /// Of the mass of every rule's belief, in the order of StudySpec::teaching.rules.
@@ -55,7 +58,15 @@ inline constexpr ColumnWords kOfPeriod{kPeriod, "Number of the period, from 1; f
 inline constexpr ColumnWords kOfComponent{kComponent, "Number of the knowledge component, from 1."};
 inline constexpr auto kOfMember = identifier(kMember, "Number of the member, from 1.");
 inline constexpr ColumnWords kOfType{kType, "Letter of the learner type."};
+inline constexpr ColumnWords kOfWorld{"mdp_name", "Name of this MDP in the domain file; missing if it has none."};
 inline constexpr ColumnWords kOfStart{kStart, "Number of the start state in the MDP, from 0."};
+
+template <typename Record>
+[[nodiscard]] std::optional<std::string_view> name_of_world(const Record& record, const Study& study) {
+  const auto& names = study.variants.front().world_names;
+  if (record.mdp >= names.size() || names[record.mdp].empty()) return std::nullopt;
+  return names[record.mdp];
+}
 
 template <typename Fields>
 void declare(Fields& fields, Declared<LearnerRecord>) {
@@ -209,6 +220,7 @@ void declare(Fields& fields, Declared<DemonstrationRecord>) {
   fields.column(&R::component, kOfComponent);
   fields.column(&R::demonstration, {"demonstration", "Number of the demonstration in the period, from 1."});
   fields.column(&R::mdp, {kMdp, "Number of the MDP, from 0."});
+  fields.derived(&name_of_world<R>, kOfWorld, {.when = has_world_names});
   fields.column(&R::start, kOfStart);
   fields.column(&R::constraints,
                 {kConstraint, "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'."});
@@ -222,6 +234,7 @@ void declare(Fields& fields, Declared<ResponseRecord>) {
   fields.column(&R::test, {kTest, "Number of the test in the period, from 1."});
   fields.column(&R::member, kOfMember);
   fields.column(&R::mdp, {kMdp, "Number of the MDP of the test, from 0."});
+  fields.derived(&name_of_world<R>, kOfWorld, {.when = has_world_names});
   fields.column(&R::start, kOfStart);
   fields.column(&R::correct, {kCorrect, "Whether the answer is as good as the robot's path."});
   fields.column(&R::regret,
