@@ -57,7 +57,7 @@ budget[fuzz]=$((minutes + 5))
 
 packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
 if [[ $mode == nightly ]]; then
-  packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}" "${packages_for_python[@]}")
+  packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}" "${packages_for_python[@]}" "${packages_for_site[@]}")
 fi
 ensure_packages "${packages[@]}"
 

@@ -1,5 +1,7 @@
 """The documentation as an offline site with search: the same Markdown, by Sphinx (target kith_site)."""
 
+import re
+
 project = "kith"
 author = "the authors of kith"
 extensions = ["myst_parser"]
@@ -13,28 +15,34 @@ html_theme = "alabaster"
 html_theme_options = {"description": "Teaches a robot's policy to a group of people", "page_width": "1100px",
                       "font_family": "sans-serif", "show_powered_by": False}
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
 html_copy_source = False
 html_show_copyright = False
 
-CONTENTS = """
 
-```{toctree}
-:hidden:
-:glob:
+def pages_in(text):
+    """The pages that a text links to, without decisions and pages of other folders that are no part of the site."""
+    return [page for page in re.findall(r"\]\(([^)#]+)\.md", text) if not page.startswith(("adr/", "../web/"))]
 
-../README
-*
-../CONTRIBUTING
-../CHANGELOG
-../THIRD_PARTY
-adr/*
-```
-"""
+
+def toctree(caption, pages):
+    return "\n".join(["", "```{toctree}", ":hidden:", ":glob:", f":caption: {caption}", "", *pages, "```", ""])
 
 
 def add_contents(app, name, source):
-    if name == root_doc:
-        source[0] += CONTENTS
+    """What the navigation shows: the rows of the table on the first page, and the pages that they name."""
+    if name != root_doc:
+        return
+    known, contents = {"../README"}, toctree("Start here", ["../README"])
+    for caption, text in re.findall(r"^\| ([^|]+) \| (.*) \|$", source[0], re.M):
+        pages = [page for page in pages_in(text) if page not in known]
+        known.update(pages)
+        if pages:
+            contents += toctree(caption[0].upper() + caption[1:], pages)
+    rest = sorted(set(pages_in(source[0])) - known)
+    source[0] += contents + toctree("To look things up", rest)
+    source[0] += toctree("Decisions", ["adr/*"])
 
 
 def setup(app):
