@@ -1,5 +1,6 @@
 """The module as a whole: types, import, installation, and calls that make no sense."""
 
+import gc
 import json
 import os
 import pathlib
@@ -8,6 +9,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
 
 import kith
@@ -147,6 +150,95 @@ class Nonsense(unittest.TestCase):
         self.assertGreater(made, self.CALLS / 20)
         self.assertGreater(refused, self.CALLS / 20)
         self.assertEqual(len(self.robot.worlds), 64)
+
+
+class Lifetimes(unittest.TestCase):
+    def test_what_is_left_works_whatever_goes_first(self):
+        draw = random.Random(41)
+        for _ in range(40):
+            robot = kith.Domain("item-delivery")
+            session = kith.Session(robot, "NP", teacher={"particles": 50})
+            session.propose()
+            belief = kith.ParticleBelief(robot.prior, 50)
+            people = kith.People(robot, "NP", learner={"N": {"particles": 50}})
+            left = {"robot": robot, "session": session, "lesson": session.lesson, "copy": session.copy(), "belief": belief,
+                    "points": belief.points, "weights": memoryview(belief.weights), "region": robot.region,
+                    "world": robot.worlds[3], "component": robot.components[0], "people": people,
+                    "member": session.belief(0), "env": kith.TeachingEnv(robot, "N", teacher={"particles": 50})}
+            uses = {"robot": lambda x: x.path((0, 0)), "session": lambda x: x.show(), "lesson": lambda x: repr(x.demonstrations),
+                    "copy": lambda x: (x.events, x.belief(1)), "belief": lambda x: x.copy().mass_in(list(region)),
+                    "points": lambda x: np.asarray(x).sum(), "weights": lambda x: np.asarray(x).sum(),
+                    "region": lambda x: x.contains((-2, 3, -1)), "world": repr, "component": repr,
+                    "people": lambda x: x.belief(0), "member": lambda x: np.asarray(x.points).sum(), "env": lambda x: x.reset(seed=1)}
+            region = robot.components[0].half_spaces
+            del robot, session, belief, people
+            while left:
+                del left[draw.choice(sorted(left))]
+                for name, thing in left.items():
+                    if draw.random() < 0.3 and name != "session":
+                        uses[name](thing)
+                gc.collect(0)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "there is no fork")
+    def test_a_forked_process_goes_on_alone(self):
+        robot = kith.Domain("item-delivery")
+        session = kith.Session(robot, "NP", teacher={"particles": 50})
+        with tempfile.TemporaryDirectory() as folder:
+            def study(name):
+                return kith.study("quick", f"{folder}/{name}", threads=2, progress=False, replicates=2,
+                                  teacher={"particles": 50}, stop={"max_periods": 3})
+            other = threading.Thread(target=study, args=("parent",))
+            other.start()
+            children = []
+            for n in range(3):  # while another thread is at work
+                child = os.fork()
+                if child == 0:
+                    status = 1
+                    try:
+                        session.propose()
+                        kith.teach(robot, "N", teacher={"particles": 50})
+                        study(f"child-{n}")
+                        status = 0
+                    finally:
+                        os._exit(status)
+                children.append(child)
+                time.sleep(0.05)
+            for child in children:
+                self.assertEqual(os.waitpid(child, 0)[1], 0)
+            other.join()
+            tables = [pathlib.Path(folder, name, "tables", "teams.csv").read_bytes()
+                      for name in ("parent", "child-0", "child-1", "child-2")]
+            self.assertEqual(len(set(tables)), 1)
+        session.propose()
+
+    def test_threads_that_share_everything(self):
+        robot = kith.Domain("item-delivery")
+        session = kith.Session(robot, "NP", teacher={"particles": 50})
+        people = kith.People(robot, "NP", learner={"N": {"particles": 50}})
+        belief = kith.ParticleBelief(robot.prior, 200)
+        met = []
+
+        def work(seed):
+            draw = random.Random(seed)
+            calls = [session.propose, session.show, session.close_tests, session.give_feedback, session.copy,
+                     lambda: session.run_period(people), lambda: session.answer(0, []), lambda: session.events,
+                     lambda: belief.diffuse(0.1, kith.RandomStream(seed)), lambda: belief.observe([(-1, 0, 2)]),
+                     lambda: np.asarray(belief.points).sum(), lambda: belief.copy().mean, lambda: robot.region,
+                     lambda: robot.worlds, lambda: kith.teach(robot, "N", teacher={"particles": 20})]
+            for _ in range(60):
+                try:
+                    draw.choice(calls)()
+                except (kith.Error, ValueError, TypeError, IndexError):
+                    pass
+                except BaseException as error:
+                    met.append(repr(error))
+        threads = [threading.Thread(target=work, args=(seed,)) for seed in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(met, [])
+        self.assertAlmostEqual(float(np.asarray(belief.weights).sum()), 1.0)
 
 
 if __name__ == "__main__":

@@ -143,7 +143,7 @@ class Events(unittest.TestCase):
                 kith.Session(ROBOT, seed=seed, **SMALL).propose()
             if round_ == 0:
                 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 20_000)  # kB
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 4_000)  # kB
 
 
 class Environment(unittest.TestCase):
