@@ -50,6 +50,12 @@ std::string one_more(const std::string& once) {
   return once + " once more";
 }
 
+// " is better than ", as the first side demands.
+std::string better_than(const Side& first, bool even) {
+  return (first.number() == Number::kPlural ? " are " : " is ") +
+         std::string{even ? "at least as good as " : "better than "};
+}
+
 // One side is of one kind, the other mixed: "crossing rubble costs less than 2 steps plus what stopping at the charger
 // is worth", "reaching the far goal is worth more than reaching the near goal plus what a step costs".
 std::string compared_with_mixed(const Side& plain, const std::string& than, const Side& mixed) {
@@ -64,14 +70,15 @@ std::string compared_with_mixed(const Side& plain, const std::string& than, cons
 // @param even  both sides weigh the same to the robot: it says so with "at least as much as".
 std::string compared(const Side& more, const Side& less, bool even) {
   if (more.empty()) {
+    if (less.mixed() && less.parts_can_be_said()) {  // contradicts the robot twice: costs would be better than gains
+      return less.only_costs().words() + better_than(less.only_costs(), even) + less.only_gains().words();
+    }
     const auto nothing = even ? "at most nothing" : "less than nothing";
     return less.can_be_said() ? less.words() + " " + less.verb() + " " + nothing : less.amount() + less.is() + nothing;
   }
   if (more.parts_can_be_said() && less.parts_can_be_said()) {
     if (more.mixed() && less.empty()) {  // gains and avoided costs: the gains are better than the costs
-      const bool plural = more.only_gains().number() == Number::kPlural;
-      return more.only_gains().words() + (plural ? " are " : " is ") +
-             (even ? "at least as good as " : "better than ") + more.only_costs().words();
+      return more.only_gains().words() + better_than(more.only_gains(), even) + more.only_costs().words();
     }
     if (more.mixed() && !less.mixed()) return compared_with_mixed(less, even ? "no more than" : "less than", more);
     if (more.mixed() && less.mixed()) {

@@ -2,6 +2,7 @@
 // tried on random weights.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -132,6 +133,26 @@ TEST(SentencesSlow, OfAllStochasticAndLargeLessonsAreTrue) {
   EXPECT_EQ(sentences.size(), 60u);
   for (const auto& said : sentences) expect_true(said, 10'000);
   write(sentences);
+}
+
+TEST(Sentences, SayWhatAConstraintSaysWhateverItIs) {
+  constexpr std::array<std::int64_t, 5> kFew{-2, -1, 0, 1, 2};
+  for (const std::string name : {"item-delivery", "two-goals", "cookie-crumb"}) {
+    const auto domain = load_domain(name);
+    for (const auto x : kFew) {
+      for (const auto y : kFew) {
+        for (const auto z : kFew) {
+          const IntegerVector normal{x, y, z};
+          if (normal.is_zero()) continue;
+          const auto text = in_words(domain, HalfSpace{normal});
+          SCOPED_TRACE(name + ": " + text);
+          const ReadSentence sentence{domain, text};
+          ASSERT_TRUE(sentence.is_understood());
+          EXPECT_EQ(HalfSpace{sentence.said()}, HalfSpace{normal});
+        }
+      }
+    }
+  }
 }
 
 TEST(ReadSentence, UnderstandsWhatSentencesMean) {

@@ -88,6 +88,14 @@ TEST(InWords, PutsCostsAndGainsOfOneSideTogether) {
             "reaching the far goal is worth more than reaching the near goal plus what a step costs");
 }
 
+TEST(InWords, PrefersWhereItContradictsTheRobotTwice) {
+  EXPECT_EQ(sentence("item-delivery", {1, -1, 0}), "crossing rubble is better than stopping at the charger");
+  EXPECT_EQ(sentence("item-delivery", {0, -1, 2}), "2 steps are better than stopping at the charger");
+  EXPECT_EQ(sentence("item-delivery", {1, -1, 2}),
+            "crossing rubble and 2 steps are better than stopping at the charger");
+  EXPECT_EQ(sentence("item-delivery", {0, 0, 1}), "a step costs less than nothing");
+}
+
 TEST(InWords, SaysAtLeastWhereTheRobotIsIndifferent) {
   const auto domain = domain_with("{ mud = -2, dock = 3, step = -1 }",
                                   "mud = \"crossing mud\"\nstep = \"a step\"\n"
