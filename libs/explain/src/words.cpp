@@ -225,15 +225,30 @@ std::string normal_text(const Domain& domain, const HalfSpace& half_space) {
   return text + ")";
 }
 
+namespace {
+
+std::string percent_explained(const InferredWeights& inferred) {
+  return std::to_string(static_cast<int>(std::floor(100.0 * inferred.share + 1e-9))) + " %";
+}
+
+}  // namespace
+
 std::string explained_in_words(const Domain& domain) {
   const auto& inferred = domain.inferred();
   if (!inferred) return "";
-  const auto percent = static_cast<int>(std::floor(100.0 * inferred->share + 1e-9));
   const auto left_out = inferred->left_out;
-  return "the weights explain " + std::to_string(percent) + " % of what the robot does, from which they were inferred" +
+  return "the weights explain " + percent_explained(*inferred) +
+         " of what the robot does, from which they were inferred" +
          (left_out == 0
               ? ""
               : "; " + std::to_string(left_out) + (left_out == 1 ? " start is" : " starts are") + " left out");
+}
+
+std::string explained_to_people(const Domain& domain) {
+  const auto& inferred = domain.inferred();
+  if (!inferred || inferred->share >= 1.0) return "";
+  return "What it likes and dislikes explains " + percent_explained(*inferred) +
+         " of what it does. Only that is shown here.";
 }
 
 std::string described(const Domain& domain, const HalfSpace& half_space) {

@@ -208,7 +208,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   if (!group.language.empty()) {
     live->language = parse_language(read_live_file(folder / group.language, "language"), group.language);
   }
-  fill_in_texts(group);
+  fill_in_texts(group, atlas->domain());
   live->sandbox = find_sandbox(*atlas);
   live->screening = draw_screening(*atlas, group.screening.tests, RandomStream{live->spec.seed}.split("screening"));
   if (live->screening.size() < group.screening.tests) {

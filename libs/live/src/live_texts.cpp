@@ -1,13 +1,21 @@
 #include "live_texts.hpp"
 
+#include <algorithm>
+
+#include "kith/explain/words.hpp"
+
 namespace kith {
 
-void fill_in_texts(GroupOptions& group) {
+void fill_in_texts(GroupOptions& group, const Domain& domain) {
+  const auto explained = explained_to_people(domain);
   if (group.story.empty()) {
     group.story = {
         "A robot has a job to do and decides by itself how to do it. Some things cost it effort, others are worth a "
-        "detour. It always takes the path that is best for it."};
+        "detour. " +
+        std::string{explained.empty() ? "It" : "Here it"} + " always takes the path that is best for it."};
   }
+  const bool is_said = std::ranges::find(group.story, explained) != group.story.end();
+  if (!explained.empty() && !is_said && group.language.empty()) group.story.push_back(explained);
   if (group.goal.empty()) group.goal = "Find out how the robot decides what to do.";
   if (group.consent_text.empty() && group.consent_file.empty()) {
     group.consent_text = {

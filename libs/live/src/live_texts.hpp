@@ -5,12 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include "kith/domains/domain.hpp"
 #include "kith/study/group_options.hpp"
 
 namespace kith {
 
-/// Fills in the standard texts where a study gives none.
-void fill_in_texts(GroupOptions& group);
+/// Fills in the standard texts where a study gives none. The story ends with explained_to_people(), unless people read
+/// another language.
+void fill_in_texts(GroupOptions& group, const Domain& domain);
 
 /// "Learner A" for the first member, "Learner AA" behind "Learner Z".
 [[nodiscard]] std::string member_label(std::size_t member);

@@ -2,9 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
 
 #include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/screening.hpp"
 #include "live_play.hpp"
@@ -39,6 +43,23 @@ TEST(LiveStudy, RefusesADesignOfWhichNoGroupCanBeTaught) {
       EXPECT_THAT(error.what(), HasSubstr("Add a composition of one learner"));
     }
   }
+}
+
+TEST(LiveStudy, TellsPeopleHowMuchOfTheRobotIsExplained) {
+  const auto story_with = [](const std::string& inferred, const std::string& group) {
+    std::ifstream file{std::string{KITH_SOURCE_DIR} + "/domains/item_delivery.toml"};
+    const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    auto atlas = std::make_shared<const Atlas>(*parse_domain(text + inferred, "inferred").domain);
+    const auto reading = parse_study(testing::kLiveStudy + group, "live.toml");
+    return make_live_study(*reading.study, std::move(atlas))->group().story;
+  };
+  const std::string inferred = "\n[inferred]\nshare = 0.965\n", own = "[group]\nstory = [\"A robot.\"]\n";
+  const std::string told = "What it likes and dislikes explains 96 % of what it does. Only that is shown here.";
+  EXPECT_EQ(story_with(inferred, "").back(), told);
+  EXPECT_THAT(story_with(inferred, "").front(), HasSubstr("Here it always takes"));
+  EXPECT_EQ(story_with(inferred, own), (std::vector<std::string>{"A robot.", told}));
+  EXPECT_EQ(story_with("", own).size(), 1u);
+  EXPECT_THAT(story_with("\n[inferred]\nshare = 1.0\n", "").back(), HasSubstr(" It always takes"));
 }
 
 TEST(Room, RefusesASetUpThatCannotBeTaught) {

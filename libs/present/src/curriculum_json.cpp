@@ -136,17 +136,20 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
   for (const auto& test : curriculum.fresh) fresh.push_back(test_json(atlas, test, tables));
   Json skipped = Json::array();
   for (const auto& one : curriculum.skipped) skipped.push_back({{"name", one.name}, {"why", one.why}});
-  return {{"schema", "kith.curriculum/1"},
-          {"title", "What will the robot do?"},  // the domain's own title may tell
-          {"program", program},
-          {"seed", seed},
-          {"domain", board_domain_json(atlas.domain())},
-          {"judge", judge_json(atlas.domain())},
-          {"tables", std::move(tables).json()},
-          {"max_actions", max_answer_actions(atlas.domain())},
-          {"components", components},
-          {"fresh", fresh},
-          {"skipped", skipped}};
+  Json document{{"schema", "kith.curriculum/1"},
+                {"title", "What will the robot do?"},  // the domain's own title may tell
+                {"program", program},
+                {"seed", seed},
+                {"domain", board_domain_json(atlas.domain())},
+                {"judge", judge_json(atlas.domain())},
+                {"tables", std::move(tables).json()},
+                {"max_actions", max_answer_actions(atlas.domain())},
+                {"components", components},
+                {"fresh", fresh},
+                {"skipped", skipped}};
+  if (auto explained = explained_to_people(atlas.domain()); !explained.empty())
+    document["explained"] = std::move(explained);
+  return document;
 }
 
 Json for_page(Json curriculum) {

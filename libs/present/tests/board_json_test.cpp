@@ -182,6 +182,17 @@ TEST(CurriculumJson, HasAllThatThePageShows) {
   }
 }
 
+TEST(CurriculumJson, SaysHowMuchOfTheRobotIsExplained) {
+  auto text = testing::rubble_domain("\"S.r\", \"#.G\"");
+  const auto explained = [&] {
+    const Atlas atlas{parse_domain(text, "two-rows.toml").domain.value()};
+    return curriculum_json(atlas, make_curriculum(atlas), 1, "kith test").value("explained", "");
+  };
+  EXPECT_EQ(explained(), "");
+  text += "\n[inferred]\nshare = 0.965\n";
+  EXPECT_EQ(explained(), "What it likes and dislikes explains 96 % of what it does. Only that is shown here.");
+}
+
 TEST(CurriculumJson, HasActionsInPlaceOfFramesForPages) {
   const auto& atlas = item_delivery();
   const auto whole = curriculum_json(atlas, make_curriculum(atlas), 7, "kith test");

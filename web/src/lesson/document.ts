@@ -54,6 +54,7 @@ export interface Lesson {
   program: string;
   seed?: number;
   domain: Domain;
+  explained?: string; // how much of what the robot does the lesson explains, where it is not all
   judge: Judge;
   tables: { moves: JudgedWorld[]; worlds: Record<string, { moves: number; counts: string[]; kinds: number[][] }> };
   max_actions: number;

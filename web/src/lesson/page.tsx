@@ -88,15 +88,16 @@ const kMinutes = { least: 0.75, most: 1.5 };
 function Introduction({ lesson }: { lesson: Lesson }): JSX.Element {
   const n = lesson.components.length;
   const boards = lesson.components.reduce((sum, { demonstrations, tests }) => sum + demonstrations.length + tests.length, 0);
+  const habit = `${lesson.explained ? 'Here it' : 'It'} always takes the path that is best for it.`;
   const [least, most] = [Math.ceil(boards * kMinutes.least), Math.ceil(boards * kMinutes.most)];
   return (
     <section id="introduction" aria-labelledby="introduction-title">
       <h2 id="introduction-title">How it works</h2>
       {lesson.domain.job && <p class="job">{lesson.domain.job}</p>}
       <p>
-        It always takes the path that is best for it. Your task is to find out what it likes and dislikes. The lesson has{' '}
-        {counted(n, 'part')} with {counted(boards, 'board')} in all, and takes about {least} to {most} minutes. On every board you show
-        first what you think the robot will do. In the tests you are told whether you were right.
+        {habit} Your task is to find out what it likes and dislikes. {lesson.explained && `${lesson.explained} `}
+        The lesson has {counted(n, 'part')} with {counted(boards, 'board')} in all, and takes about {least} to {most} minutes. On every board
+        you show first what you think the robot will do. In the tests you are told whether you were right.
       </p>
     </section>
   );

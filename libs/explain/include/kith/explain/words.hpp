@@ -53,6 +53,9 @@ namespace kith {
 /// from which they were inferred; 20 starts are left out". Percentages are rounded down. Empty where somebody gave the
 /// weights.
 [[nodiscard]] std::string explained_in_words(const Domain& domain);
+/// The same for people who are taught: "What it likes and dislikes explains 96 % of what it does. Only that is shown
+/// here." Empty where somebody gave the weights, or where they explain everything.
+[[nodiscard]] std::string explained_to_people(const Domain& domain);
 /// "(-1,0,2)", without entries beyond the domain's features.
 [[nodiscard]] std::string normal_text(const Domain& domain, const HalfSpace& half_space);
 /// A feature n times, as a noun: "a step", "2 steps", "crossing rubble twice".
