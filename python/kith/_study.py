@@ -305,12 +305,17 @@ def fit(*logs: Union[str, os.PathLike[str], Run], method: str = "likelihood", an
     return document
 
 
-def audit(folder: Union[str, os.PathLike[str], Run], team: int = 0, *, forgetting: float = 0.02, threads: int = 0,
-          progress: Progress = "auto") -> dict[str, Any]:
-    """Who understands what, by the answers alone: the document kith.audit/1. team: its number; 0: all of the run."""
+def audit(folder: Union[str, os.PathLike[str], Run], team: int = 0, *, room: str = "", forgetting: float = 0.02,
+          threads: int = 0, progress: Progress = "auto") -> dict[str, Any]:
+    """Who understands what, by the answers alone: the document kith.audit/1.
+
+    folder  of a run, or of live sessions
+    team    number of a team of the run; 0: all
+    room    id or code of a room of the live sessions; "": all
+    """
     place = str(folder.folder) if isinstance(folder, Run) else os.fspath(folder)
     with Bar(progress, "judging") as bar:
-        document: dict[str, Any] = json.loads(_core.audit(place, team, forgetting, threads, bar.callback))
+        document: dict[str, Any] = json.loads(_core.audit(place, team, room, forgetting, threads, bar.callback))
     return document
 
 

@@ -19,6 +19,8 @@
 #include "kith/report/report.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/study_run.hpp"
+#include "kith/store/event_file.hpp"
+#include "kith/store/session_audit.hpp"
 #include "kith/study/observed_team.hpp"
 #include "kith/study_design/power.hpp"
 #include "kith/table/codebook.hpp"
@@ -157,12 +159,27 @@ std::vector<AuditedPerson> judged(const Atlas& atlas, const Study& study, const 
   return people;
 }
 
-std::string audit(const std::string& folder, std::size_t team, double forgetting, std::size_t threads,
-                  const py::object& on_progress) {
+std::string audit(const std::string& folder, std::size_t team, const std::string& room, double forgetting,
+                  std::size_t threads, const py::object& on_progress) {
   if (!(forgetting >= 0.0) || forgetting > 1e6) throw py::value_error{"forgetting must be 0 or more, in radians"};
+  const bool is_live = std::filesystem::exists(std::filesystem::path{folder} / kEventFile);
+  if (is_live && team != 0) throw py::value_error{"team is of a run; a live session has rooms"};
+  if (!is_live && !room.empty()) throw py::value_error{"room is of a live session; a run has teams"};
   const OwnKinds own;
   Watch watch;
+  const auto tell = [&](std::size_t done, std::size_t total) {
+    watch.tell(done, total);
+    return !watch.stop;
+  };
   return wait_for(watch, on_progress, [&] {
+    if (is_live) {
+      const auto on_room = [&](std::size_t done, std::size_t total) {
+        if (!tell(done, total)) throw Stopped{};
+      };
+      const auto live = audit_session(
+          EventFile::read(folder), {.source = folder, .room = room, .forgetting = forgetting, .on_progress = on_room});
+      return audit_json(*live.study->atlas, live.report, cli::program_name()).dump();
+    }
     auto reading = read_run_folder(folder, own.kinds());
     if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
     const auto& study = *reading.study;
@@ -182,10 +199,6 @@ std::string audit(const std::string& folder, std::size_t team, double forgetting
       throw Error{ErrorKind::kInfeasible, team == 0 ? "no team of " + folder + " has been taught yet"
                                                     : "team " + std::to_string(team) + " has not been taught"};
     std::vector<std::vector<AuditedPerson>> people(records.size());
-    const auto tell = [&](std::size_t done, std::size_t total) {
-      watch.tell(done, total);
-      return !watch.stop;
-    };
     const bool all = for_each_index(records.size(), {.threads = threads, .on_progress = tell},
                                     [&](std::size_t i) { people[i] = judged(atlas, study, records[i], options); });
     if (!all) throw Stopped{};
@@ -271,8 +284,8 @@ void bind_results(py::module_& module) {
   module.def("report", &report, py::arg("folder"), py::arg("as_page"));
   module.def("fit", &fit, py::arg("logs"), py::arg("method"), py::arg("answers"), py::arg("types"), py::arg("folds"),
              py::arg("replicates"), py::arg("seed"), py::arg("threads"), py::arg("on_progress"));
-  module.def("audit", &audit, py::arg("folder"), py::arg("team"), py::arg("forgetting"), py::arg("threads"),
-             py::arg("on_progress"));
+  module.def("audit", &audit, py::arg("folder"), py::arg("team"), py::arg("room"), py::arg("forgetting"),
+             py::arg("threads"), py::arg("on_progress"));
   module.def("power", &power, py::arg("name"), py::arg("text"), py::arg("overrides"), py::arg("effects"),
              py::arg("teams"), py::arg("target"), py::arg("alpha"), py::arg("pool"), py::arg("draws"),
              py::arg("paired"), py::arg("threads"), py::arg("on_progress"));

@@ -1,6 +1,7 @@
 """Runs: the same bytes as the program's, frames over its memory, interruption, resumption."""
 
 import filecmp
+import json
 import os
 import pathlib
 import signal
@@ -76,6 +77,21 @@ class Runs(unittest.TestCase):
         self.assertEqual(told.periods, int(self.run_.tables["teams"]["periods"][0]))
         people = self.run_.audit(1, progress=False)["people"]
         self.assertEqual(len(people), len(self.run_.tables["teams"]["composition"][0]))
+
+    @unittest.skipUnless(os.path.exists(PROGRAM), "the program is not built")
+    def test_a_live_session_is_audited_as_the_program_does(self):
+        folder = self.folder / "live"
+        subprocess.run([PROGRAM, "serve", "quick", "-o", folder, "--rehearse", "1", "--answer-every", "0.05"], check=True,
+                       capture_output=True)
+        printed = subprocess.run([PROGRAM, "audit", folder, "--json"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(kith.audit(folder, progress=False), json.loads(printed))
+        self.assertEqual(kith.audit(folder, room="r1", progress=False)["people"], json.loads(printed)["people"])
+        with self.assertRaises(kith.Error):
+            kith.audit(folder, room="r9", progress=False)
+        with self.assertRaises(ValueError):
+            kith.audit(folder, 1, progress=False)
+        with self.assertRaises(ValueError):
+            kith.audit(self.run_, room="r1", progress=False)
 
     def test_the_report_is_one_page(self):
         try:

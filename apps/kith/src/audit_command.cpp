@@ -16,15 +16,13 @@
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
-#include "kith/live/taught_people.hpp"
 #include "kith/present/audit_report.hpp"
 #include "kith/present/wrapped.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "kith/store/event_file.hpp"
-#include "kith/store/session_review.hpp"
-#include "kith/store/session_study.hpp"
+#include "kith/store/session_audit.hpp"
 #include "kith/study/observed_team.hpp"
 #include "page.hpp"
 #include "progress.hpp"
@@ -202,73 +200,6 @@ class RunAudit {
   std::vector<TeamRecord> records_;
 };
 
-// --- a live session ------------------------------------------------------------------------------------------------
-
-std::vector<Observed> people_of(const Room& room, const TaughtPeople& taught) {
-  std::vector<Observed> people;
-  const auto& setup = room.setup();
-  for (auto& one : taught.all(room)) {
-    AuditedPerson person;
-    person.room = setup.id;
-    person.group = fmt::format("room {} ({}, {})", setup.id, setup.strategy, setup.composition);
-    person.member = one.member + 1;
-    person.seat = one.seat;
-    person.type = setup.composition.at(one.member);
-    person.simulated = !one.is_person;
-    people.push_back({std::move(person), std::move(one.periods)});
-  }
-  return people;
-}
-
-class SessionAudit {
- public:
-  SessionAudit(const AuditCommandOptions& options, EventFile file)
-      : options_{options}, file_{std::move(file)}, study_{restore_session_study(file_.identity().inputs).study} {}
-
-  [[nodiscard]] const Atlas& atlas() const { return *study_->atlas; }
-
-  AuditReport report() {
-    TeachingCache cache{study_->atlas};
-    const auto how = audit_options(options_, study_->spec);
-    AuditReport report{.source = options_.folder, .people = {}, .options = how};
-    std::vector<StoredRoom> rooms = file_.rooms();
-    if (!options_.room.empty()) rooms = {find_room(file_, options_.room)};
-    for (const auto& stored : rooms) {
-      auto people = people_in(stored, cache);
-      judge(cache, how, people);
-      for (auto& person : people) report.people.push_back(std::move(person.person));
-    }
-    if (report.people.empty()) {
-      throw refusal(ErrorKind::kInfeasible, "E1115", "no room of " + options_.folder + " has had a lesson yet",
-                    "kith session list shows how far the rooms are");
-    }
-    return report;
-  }
-
- private:
-  // Nobody as long as there was no lesson.
-  std::vector<Observed> people_in(const StoredRoom& stored, TeachingCache& cache) {
-    std::size_t left = 0;
-    file_.for_each_event([&](const StoredEvent&) { ++left; }, stored.number);
-    std::vector<Observed> people;
-    TaughtPeople taught;
-    const auto replayed = replay_room(file_, stored, study_, cache, [&](const Room& room, const RoomEvent&) {
-      taught.see(room);
-      if (--left == 0 && !room.session().history().empty()) people = people_of(room, taught);
-    });
-    if (!replayed.problem.empty()) {
-      throw refusal(ErrorKind::kMismatch, "E1614",
-                    "room " + replayed.id + " does not replay to what it was: " + replayed.problem,
-                    "use the version of kith and the kind of machine that the session was run with");
-    }
-    return people;
-  }
-
-  const AuditCommandOptions& options_;
-  EventFile file_;
-  std::shared_ptr<const LiveStudy> study_;
-};
-
 // --- as text -------------------------------------------------------------------------------------------------------
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
@@ -393,8 +324,10 @@ int run(const AuditCommandOptions& options, Console& console) {
   std::error_code none;
   if (fs::exists(folder / kEventFile, none)) {
     if (options.team) refuse("--team is for run folders; --room ID names a room of a live session");
-    SessionAudit audit{options, EventFile::read(folder)};
-    return show(audit.atlas(), audit.report(), options, console);
+    const auto audit = audit_session(
+        EventFile::read(folder),
+        {.source = options.folder, .room = options.room, .forgetting = options.forgetting, .on_progress = {}});
+    return show(*audit.study->atlas, audit.report, options, console);
   }
   if (!options.room.empty()) refuse("--room is for live sessions; --team N names a team of a run");
   if (!Journal::exists(folder / kJournalFile)) {
