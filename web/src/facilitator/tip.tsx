@@ -1,5 +1,5 @@
-// Explanations on hover and focus: anything with data-tip has one. There is one box for all of them, which
-// stays inside the window; Escape hides it.
+// Explanations on hover and focus: anything with data-tip has one. There is one box for all of them in a document or
+// shadow tree, which stays inside the window; Escape hides it.
 import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { kTerms, type Term } from './words';
@@ -19,24 +19,25 @@ export function Tips(): JSX.Element {
   const [on, setOn] = useState<Element | null>(null);
   const box = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => {
+    const tree = box.current?.getRootNode() ?? document;
     const find = (event: Event): Element | null =>
       event.target instanceof Element ? event.target.closest('[data-tip]') : null;
     const show = (event: Event): void => setOn(find(event));
     const hide = (): void => setOn(null);
-    const key = (event: KeyboardEvent): void => {
-      if (event.key === 'Escape') hide();
+    const key = (event: Event): void => {
+      if ((event as KeyboardEvent).key === 'Escape') hide();
     };
-    document.addEventListener('pointerover', show);
-    document.addEventListener('focusin', show);
-    document.addEventListener('focusout', hide);
-    document.addEventListener('scroll', hide, true);
-    document.addEventListener('keydown', key);
+    tree.addEventListener('pointerover', show);
+    tree.addEventListener('focusin', show);
+    tree.addEventListener('focusout', hide);
+    tree.addEventListener('scroll', hide, true);
+    tree.addEventListener('keydown', key);
     return () => {
-      document.removeEventListener('pointerover', show);
-      document.removeEventListener('focusin', show);
-      document.removeEventListener('focusout', hide);
-      document.removeEventListener('scroll', hide, true);
-      document.removeEventListener('keydown', key);
+      tree.removeEventListener('pointerover', show);
+      tree.removeEventListener('focusin', show);
+      tree.removeEventListener('focusout', hide);
+      tree.removeEventListener('scroll', hide, true);
+      tree.removeEventListener('keydown', key);
     };
   }, []);
   useLayoutEffect(() => {

@@ -31,7 +31,7 @@ interface GroupTableProps {
   detail: RoomDetail;
   marked: number | null;
   onMark: (member: number | null) => void;
-  onOpen: (seat: SeatRow) => void;
+  onOpen?: ((seat: SeatRow) => void) | undefined;
 }
 
 export function GroupTable({ study, room, detail, marked, onMark, onOpen }: GroupTableProps): JSX.Element {
@@ -90,9 +90,15 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
               onFocusOut={() => onMark(null)}
             >
               <th scope="row">
-                <button type="button" class="seat" onClick={() => onOpen(seat)} aria-haspopup="dialog">
-                  <PresenceMark seat={seat} /> {seatTitle(seat)}
-                </button>
+                {onOpen ? (
+                  <button type="button" class="seat" onClick={() => onOpen(seat)} aria-haspopup="dialog">
+                    <PresenceMark seat={seat} /> {seatTitle(seat)}
+                  </button>
+                ) : (
+                  <span class="seat">
+                    <PresenceMark seat={seat} /> {seatTitle(seat)}
+                  </span>
+                )}
                 {seat.type && (
                   <span class="type" data-tip={seat.kind === 'simulated' ? `Simulated learner: ${typeLabel(study, seat.type)}` : `Type in the composition: ${typeLabel(study, seat.type)}`}>
                     {seat.type}

@@ -1,5 +1,4 @@
-// One room as it happens: who needs help, people and answers, and beliefs on the left, the lesson and the progress on
-// the right.
+// One room as it happens, with its controls and its log.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { duration } from '../../shared/duration';
@@ -11,14 +10,7 @@ import { Rooms } from '../rooms';
 import type { FacilitatorView, RoomRow } from '../protocol';
 import { Explained } from '../tip';
 import { attention, endText, kStages, roomTitle } from '../words';
-import { memberOfSeat, seatOf } from './beliefs';
-import { Curves } from './curves';
-import { GroupTable } from './group_table';
-import { Now } from './now';
-import { LessonPanel } from './lesson_now';
-import { Progress } from './progress';
-import { Spheres } from './spheres';
-import { useWindowHeight } from './width';
+import { RoomPicture } from './picture';
 
 interface LiveProps {
   view: FacilitatorView;
@@ -117,53 +109,14 @@ interface RoomViewProps {
   onAct: (action: Action, room: string) => void;
 }
 
-// Pixels, as in live.css. What the table leaves of the window is for spheres and charts, so that everything is
-// visible without scrolling.
-const kTableRow = 22;
-const kAround = 230; // bars, heads and gaps
-const kSpheres = { share: 0.68, least: 150, most: 330 };
-const kChart = { least: 80, most: 190 };
-
-function heightsFor(window_px: number, seats: number): { spheres: number; chart: number } {
-  const rest = window_px - kAround - seats * kTableRow;
-  const chart = Math.max(kChart.least, Math.min(kChart.most, (1 - kSpheres.share) * rest));
-  return { chart, spheres: Math.max(kSpheres.least, Math.min(kSpheres.most, rest - chart)) };
-}
-
 function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
-  const [marked, setMarked] = useState<number | null>(null);
   const [opened, setOpened] = useState<number | null>(null);
-  const heights = heightsFor(useWindowHeight(), room.seats.length);
   const detail = view.room;
   if (!detail) return <Nothing text="Loading the room..." />;
-  const period = detail.session.phase === 'teacher' ? room.period - 1 : room.period; // of the lesson
   const seat = room.seats.find((one) => one.seat === opened);
-  const nameOf = (belief: string): string => seatOf(room.seats, belief)?.label ?? belief;
-  const memberOf = (number: string): number => {
-    const found = room.seats.find((one) => String(one.seat) === number);
-    return found ? memberOfSeat(found) : Number(number);
-  };
   return (
     <>
-      <div class="live">
-        <div class="live-main">
-          <Now room={room} detail={detail} study={view.study} />
-          <GroupTable
-            study={view.study}
-            room={room}
-            detail={detail}
-            marked={marked}
-            onMark={setMarked}
-            onOpen={({ seat: number }) => setOpened(number)}
-          />
-          <Spheres detail={detail} height={heights.spheres} nameOf={nameOf} marked={marked} onMark={setMarked} />
-          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} memberOfSeat={memberOf} />}
-        </div>
-        <div class="live-side">
-          <Progress room={room} detail={detail} />
-          <LessonPanel key={period} lesson={detail.lesson} period={period} />
-        </div>
-      </div>
+      <RoomPicture study={view.study} room={room} detail={detail} onOpen={({ seat: number }) => setOpened(number)} />
       <section class="room-log" aria-labelledby="room-log-title">
         <h3 id="room-log-title">Log of this room</h3>
         <LogTable log={view.log.filter((entry) => entry.room === room.id)} rooms={view.rooms} withRoom={false} />
