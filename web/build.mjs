@@ -42,7 +42,7 @@ const { build } = createRequire(join(modulesRoot, 'package.json'))('esbuild');
 
 async function bundle(entry, loaderOptions) {
   const result = await build({
-    entryPoints: [join(here, entry)],
+    entryPoints: [resolve(here, entry)],
     absWorkingDir: modulesRoot,
     nodePaths: [join(modulesRoot, 'node_modules')],
     bundle: true,
@@ -87,12 +87,21 @@ const withoutLiveTexts = {
   },
 };
 
+// Style sheets that a script puts into a tree of its own: `import sheet from './x.css?text'`.
+const sheets = {
+  name: 'sheets',
+  setup({ onResolve, onLoad }) {
+    onResolve({ filter: /\.css\?text$/ }, ({ path, resolveDir }) => ({ path: join(resolveDir, path.slice(0, -5)), namespace: 'sheet' }));
+    onLoad({ filter: /./, namespace: 'sheet' }, async ({ path }) => ({ contents: (await bundle(path, { target: kTarget })).text, loader: 'text' }));
+  },
+};
+
 const kTarget = ['chrome100', 'firefox100', 'safari15.4'];
 const script = await bundle(existsSync(join(here, source, 'main.tsx')) ? `${source}/main.tsx` : `${source}/main.ts`, {
   jsx: 'automatic',
   jsxImportSource: 'preact',
   platform: 'browser',
-  plugins: values.page === 'file' ? [] : [withoutLiveTexts],
+  plugins: values.page === 'file' ? [sheets] : [sheets, withoutLiveTexts],
   format: 'iife',
   target: kTarget,
 });

@@ -199,6 +199,40 @@ describe('a lesson in a file', () => {
     });
   });
 
+  it('shows researchers how it was chosen, at the end and to those who know the address only', async () => {
+    await withReader('delivery.html', {}, async (reader) => {
+      const { page } = reader;
+      const link = reader.button('For researchers: how this lesson was chosen');
+      await reach([reader], ['feedback'], () => false);
+      assert.equal(await link.count(), 0);
+      await reach([reader], ['debrief']);
+      await link.click();
+      await page.getByText('This page is for researchers.').waitFor();
+      await page.locator('.teacher-picture .globe').first().waitFor();
+      const said = page.locator('.teacher-steps span');
+      assert.match(await said.textContent(), /^at the end, after period \d+$/);
+      const steps = page.locator('.teacher-steps input');
+      const periods = Number(await steps.getAttribute('max'));
+      assert.ok(periods > 0);
+      await steps.fill('0');
+      assert.equal(await said.textContent(), 'after period 1');
+      await page.locator('.teacher-picture .why-text').waitFor();
+      if (values.screenshots) await page.screenshot({ path: join(values.screenshots, 'researcher.png'), fullPage: true });
+      assert.deepEqual(await reader.violations(axe), []);
+      await reader.button('Back to the lesson').click();
+      await page.waitForSelector('main.stage-debrief');
+
+      await reader.button('Start again').click();
+      reader.view = null;
+      await reader.button('Erase and start again').click();
+      await until(() => reader.view?.stage === 'consent');
+      assert.equal(await link.count(), 0);
+      await page.goto(`${page.url()}?researcher`);
+      await link.click();
+      await page.locator('.teacher-picture .globe').first().waitFor();
+    });
+  });
+
   it('shows texts as texts, whatever is in them', async () => {
     const corpus = [
       '<img src=x onerror=window.hacked=1>',

@@ -6,12 +6,16 @@
 //   {"do": "teach", "now_us"}                                                               the next lesson
 //   {"do": "world", "key"}, {"do": "texts"}, {"do": "seal"}         a table of moves, texts, a digest of all events
 //   {"do": "progress"}                                              {"predictions", "components"}
+//   {"do": "teacher"}                                               {"study", "periods": [{"row", "room"}]}
+//
+// "teacher" is what facilitators see after every period, and now. A room of simulated people begins by itself; every
+// "teach" is one of its periods.
 //
 // A lesson among the events of "open" whose body is null is chosen again; the reply then has all events and what the
-// lessons show as {"restored": {"events", "lessons"}}. All but the last four reply {"events": those that happened,
+// lessons show as {"restored": {"events", "lessons"}}. Only those with "now_us" reply {"events": those that happened,
 // "view", "due_us" or null, "teaching": whether a lesson is waited for, "lesson": {"seq", "demos", "tests"} if one was
-// chosen, "refusal" or null}. Whatever goes wrong is
-// {"error": text}.
+// chosen, "refusal" or null}; "open" also the "warnings" about its inputs, as texts. Whatever goes wrong is {"error":
+// text, "diagnostics": what is wrong with the inputs, as of kith::to_json() and with "text" for people}.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,16 +24,35 @@
 #include <stdexcept>
 #include <string>
 
+#include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
 #include "kith/live/lesson_log.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
+#include "kith/present/json.hpp"
 #include "kith/study/study_file.hpp"
 
 namespace kith {
 namespace {
 
 namespace fs = std::filesystem;
+
+Json texts_of(const std::vector<Diagnostic>& diagnostics) {
+  Json texts = Json::array();
+  for (const auto& diagnostic : diagnostics) texts.push_back(to_text(diagnostic));
+  return texts;
+}
+
+Json error_reply(const Error& error) {
+  Json list = Json::array();
+  for (const auto& diagnostic : error.diagnostics()) {
+    list.push_back(to_json(diagnostic));
+    list.back()["text"] = to_text(diagnostic);
+  }
+  return {{"error", error.what()}, {"diagnostics", std::move(list)}};
+}
+
+std::string text_of(const Json& reply) { return reply.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
 constexpr const char* kFolder = "/study";
 const std::string kPerson = "seat:1";
@@ -44,6 +67,7 @@ class Engine {
     if (what == "texts") return language_json(*study_);
     if (what == "progress") return progress();
     if (what == "seal") return {{"seal", seal_}};
+    if (what == "teacher") return teacher();
     now_us_ = std::max(now_us_, request.at("now_us").get<std::int64_t>());
     if (what == "ask") return ask(request.at("type").get<std::string>(), request.value("body", Json::object()));
     if (what == "tick") return state();
@@ -64,6 +88,8 @@ class Engine {
         make_live_study(*reading.study, std::make_shared<const Atlas>(*reading.domain), kFolder, reading.domain_text);
     cache_ = std::make_unique<TeachingCache>(study_->atlas);
     room_.emplace(study_, room_setup(request.at("setup")), *cache_);
+    past_ = Json::array();
+    seal_.clear();
     now_us_ = request.at("now_us").get<std::int64_t>();
     Json lessons = Json::array();
     for (const auto& event : request.value("events", Json::array())) {
@@ -78,6 +104,7 @@ class Engine {
     decide({"server", "present", {{"seat", 1}}, {}});
     auto reply = state();
     if (!lessons.empty()) reply["restored"] = std::move(restored);
+    reply["warnings"] = texts_of(reading.diagnostics);
     return reply;
   }
 
@@ -106,6 +133,23 @@ class Engine {
     return lesson_content(lesson, event.seq);
   }
 
+  // As facilitators see it, without what a clock has to say.
+  Json picture() const {
+    auto picture = room_->view({Viewer::Role::kFacilitator, 0}, now_us_);
+    picture.at("room").at("timers") = Json::array();
+    for (auto& seat : picture.at("row").at("seats")) {
+      seat["since_ms"] = 0;
+      seat.erase("stage_since_ms");
+    }
+    return picture;
+  }
+
+  Json teacher() const {
+    auto periods = past_;
+    periods.push_back(picture());
+    return {{"study", live_study_json(*study_)}, {"periods", std::move(periods)}};
+  }
+
   // How far the person is, for learning systems.
   Json progress() const {
     const auto room = room_->view({Viewer::Role::kFacilitator, 0}, now_us_).at("room");
@@ -119,6 +163,8 @@ class Engine {
   }
 
   void happen(const RoomEvent& event, const TaughtLesson* lesson = nullptr) {
+    const bool ends_period = event.get<happening::LessonChosen>() != nullptr && room_->session().periods() > 0;
+    if (ends_period) past_.push_back(picture());
     room_->apply(event, *cache_, lesson);
     seal_ = sealed(seal_, event);
     happened_.push_back(to_json(event));
@@ -149,6 +195,7 @@ class Engine {
   std::optional<Room> room_;
   std::int64_t now_us_ = 0;
   Json happened_ = Json::array();
+  Json past_ = Json::array();  // pictures after every period but the last
   std::string seal_;
 };
 
@@ -159,9 +206,11 @@ extern "C" const char* kith_engine(const char* request) {
   static kith::Engine engine;  // one per worker
   static std::string reply;
   try {
-    reply = engine.answer(kith::Json::parse(request)).dump(-1, ' ', true, kith::Json::error_handler_t::replace);
+    reply = kith::text_of(engine.answer(kith::Json::parse(request)));
+  } catch (const kith::Error& error) {
+    reply = kith::text_of(kith::error_reply(error));
   } catch (const std::exception& error) {
-    reply = kith::Json{{"error", error.what()}}.dump(-1, ' ', true, kith::Json::error_handler_t::replace);
+    reply = kith::text_of({{"error", error.what()}});
   }
   return reply.c_str();
 }

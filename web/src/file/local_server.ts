@@ -4,6 +4,7 @@ import type { LessonFile } from './document';
 import type { Engine, State } from './engine';
 import { emptyLog, keepLog, type Log } from './log';
 import type { Component, Prediction } from './doors/door';
+import type { Teacher } from './teacher';
 
 type Message = { t: string; id?: string; body?: unknown };
 
@@ -58,6 +59,11 @@ export class LocalServer implements Transport {
   /** How far the learner is. */
   progress(): Promise<{ predictions: Prediction[]; components: Component[] }> {
     return this.engine.ask({ do: 'progress' });
+  }
+
+  /** What the teacher showed, and took the learner to believe. */
+  teacher(): Promise<Teacher> {
+    return this.engine.ask({ do: 'teacher' });
   }
 
   get stage(): string {

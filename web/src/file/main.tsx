@@ -1,6 +1,6 @@
 // A lesson in one file: the pages of live sessions, with the engine in the server's place.
 import { render, type JSX } from 'preact';
-import { useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import { App } from '../live/app';
 import { Button } from '../live/parts/ui';
 import { download } from '../shared/download';
@@ -14,6 +14,7 @@ import { findDoor, Reporter, type DoorTrouble } from './doors/reporter';
 import { Engine } from './engine';
 import { LocalServer } from './local_server';
 import { emptyLog, eraseLog, recalledLog, type Log } from './log';
+import { Researcher } from './teacher';
 
 installTheme();
 const file = readDocument();
@@ -23,8 +24,20 @@ function nameOf(title: string): string {
   return title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'lesson';
 }
 
+interface BarProps {
+  server: LocalServer;
+  learner: string;
+  status: Status;
+  onResearch: () => void;
+}
+
+// Nobody comes across what gives the answers away: the link is there when the lesson is over, or for those who know the
+// address.
+const isForResearchers = new URLSearchParams(location.search).has('researcher');
+const isOver = (stage: string): boolean => stage === 'debrief' || stage === 'ended';
+
 // What a server would do for people: hand their answers on, and forget them.
-function Bar({ server, learner, status }: { server: LocalServer; learner: string; status: Status }): JSX.Element {
+function Bar({ server, learner, status, onResearch }: BarProps): JSX.Element {
   const { isKept, trouble } = status;
   const [isSure, setSure] = useState(false);
   const save = async (): Promise<void> => {
@@ -54,6 +67,7 @@ function Bar({ server, learner, status }: { server: LocalServer; learner: string
       ) : (
         <Button onClick={() => setSure(true)}>{t('file.again')}</Button>
       )}
+      {(isForResearchers || isOver(server.stage)) && <Button onClick={onResearch}>{t('file.researcher')}</Button>}
     </footer>
   );
 }
@@ -74,15 +88,25 @@ interface Status {
   trouble: DoorTrouble;
 }
 
-function show(server: LocalServer, learner: string, status: Status): void {
-  if (!page) return;
-  render(
+function Lesson({ server, learner, status }: Omit<BarProps, 'onResearch'>): JSX.Element {
+  const [isResearch, setResearch] = useState(false);
+  const [, setStage] = useState(server.stage);
+  useLayoutEffect(() => {
+    const changed = (): void => setStage(server.stage);
+    window.addEventListener('kith-view', changed);
+    return () => window.removeEventListener('kith-view', changed);
+  }, []);
+  if (isResearch) return <Researcher load={() => server.teacher()} back={() => setResearch(false)} />;
+  return (
     <>
       <App />
-      <Bar server={server} learner={learner} status={status} />
-    </>,
-    page,
+      <Bar server={server} learner={learner} status={status} onResearch={() => setResearch(true)} />
+    </>
   );
+}
+
+function show(server: LocalServer, learner: string, status: Status): void {
+  if (page) render(<Lesson server={server} learner={learner} status={status} />, page);
 }
 
 // Of what this browser and the learning system have kept, the longer one.
