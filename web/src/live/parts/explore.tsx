@@ -100,7 +100,7 @@ export function Explore({ explore, connection }: { explore: Shown; connection: C
         <Button off={asked === null} onClick={() => setAsked(null)}>
           {t('explore.reset')}
         </Button>
-        <Brackets brackets={explore.brackets} />
+        <Brackets brackets={explore.brackets} counted={current.board.domain.counted} />
       </div>
     </div>
   );

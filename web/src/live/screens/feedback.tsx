@@ -99,7 +99,7 @@ function OneTask({ test, token, brackets, next }: OneTaskProps): JSX.Element {
         reason={<Reasons test={test} />}
       >
         {test.chance && mine && <Outcomes test={test} chance={test.chance} mine={mine} token={token} />}
-        <Brackets brackets={brackets} />
+        <Brackets brackets={brackets} counted={board.domain.counted} />
         {next}
       </Compare>
     </>

@@ -1,6 +1,8 @@
 // What is known so far: between which bounds each cost lies, on one scale per feature, in units of the reference.
 import type { JSX } from 'preact';
-import { isEnglish, sentence, t } from '../texts';
+import type { Counted } from '../board/types';
+import { capitalised, isEnglish, sentence, t } from '../texts';
+import { labelOf } from './ledger';
 
 type Ratio = [number, number];
 
@@ -14,13 +16,14 @@ export interface Bracket {
 
 const valueOf = (ratio: Ratio | null): number | null => (ratio ? ratio[0] / ratio[1] : null);
 
-export function Brackets({ brackets }: { brackets: Bracket[] }): JSX.Element | null {
+// `counted` names features where the sentence, which is English, cannot be said.
+export function Brackets({ brackets, counted = [] }: { brackets: Bracket[]; counted?: Counted[] | undefined }): JSX.Element | null {
   if (brackets.length === 0) return null;
   return (
     <div class="brackets">
       <p class="brackets-title">{t('brackets.title')}</p>
       {brackets.map((bracket) => (
-        <Scale bracket={bracket} />
+        <Scale bracket={bracket} counted={counted} />
       ))}
     </div>
   );
@@ -29,8 +32,19 @@ export function Brackets({ brackets }: { brackets: Bracket[] }): JSX.Element | n
 const kWidth = 320;
 const kSide = 14;
 
+const number = (x: number): string => String(Math.abs(Math.round(100 * x) / 100));
+
+// "Crossing rubble, measured in steps: 2 to 4"
+function inNumbers({ feature, reference }: Bracket, counted: Counted[], from: number | null, to: number | null): string {
+  const [what, unit] = [counted[feature], counted[reference]];
+  if (!what || !unit) return '';
+  const ends = from !== null && to !== null ? 'between' : from !== null ? 'above' : 'below';
+  const values = { what: labelOf(what), unit: labelOf(unit), from: number(from ?? 0), to: number(to ?? 0) };
+  return capitalised(t(`brackets.${ends}`, values));
+}
+
 // Costs and gains alike grow to the right; where neither is known, costs are to the left of nought.
-function Scale({ bracket }: { bracket: Bracket }): JSX.Element {
+function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): JSX.Element {
   const [low, high] = [valueOf(bracket.low), valueOf(bracket.high)];
   const isCost = high !== null && high <= 0;
   const [from, to] = isCost ? [-high, low === null ? null : -low] : [low, high];
@@ -44,7 +58,7 @@ function Scale({ bracket }: { bracket: Bracket }): JSX.Element {
   for (let x = Math.ceil(least / step) * step; x <= most; x += step) ticks.push(x);
   return (
     <div class="bracket">
-      {isEnglish() && <p>{sentence(bracket.text)}</p>}
+      <p>{isEnglish() ? sentence(bracket.text) : inNumbers(bracket, counted, from, to)}</p>
       <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
         <path class="axis" d={`M${kSide} 13H${kWidth - kSide}`} />
         <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />
