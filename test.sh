@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 
 # In minutes of two cores, the build included, 90 in all; a part that takes longer is stopped.
 night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
-declare -A budget=([release]=14 [ratios]=3 [headers]=4 [asan]=10 [tsan]=6 [python]=6 [lesson]=5 [fuzz]=10 [coverage]=4
+declare -A budget=([release]=14 [ratios]=3 [headers]=4 [asan]=10 [tsan]=6 [python]=6 [lesson]=12 [fuzz]=10 [coverage]=4
   [slow]=22 [tidy]=6)
 usage() {
   cat <<TEXT
@@ -181,7 +181,7 @@ run_part() {
       ;;
     lesson)
       part "lesson files: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_LESSON=ON -- kith kith_web_packages &&
-        part "lesson files: tests" run_tests release -R '^web\.LessonFile$'
+        part "lesson files: tests" run_tests release -R '^web\.Lesson(File|Doors|Firefox)$'
       ;;
     tidy) part "clang-tidy" configure_and_build tidy -- all ;;
   esac

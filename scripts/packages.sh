@@ -14,9 +14,9 @@ packages_to_build=(
 packages_for_python=(pybind11-dev python3-dev python3-numpy python3-pandas)
 packages_for_site=(python3-sphinx python3-myst-parser dpkg-dev)
 packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
-packages_for_lesson=(emscripten)  # LLVM for WebAssembly
+packages_for_lesson=(emscripten xz-utils)  # LLVM for WebAssembly; what packs the page
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
-  slowhttptest
+  firefox-esr slowhttptest
   mypy python3-matplotlib python3-pip python3-setuptools python3-wheel
   r-base-core r-cran-car r-cran-emmeans r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-survival)
 

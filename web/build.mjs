@@ -14,8 +14,8 @@ import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
-import { gzipSync } from 'node:zlib';
 import { collectNotices, noticesHtml } from './notices.mjs';
+import { lzma, textOf } from './pack.mjs';
 
 const DATA_PLACEHOLDER = '/*KITH_REPORT_JSON*/';
 const TITLE_PLACEHOLDER = '/*KITH_REPORT_TITLE*/';
@@ -32,8 +32,9 @@ const { values } = parseArgs({
     engine: { type: 'string' },
   },
 });
+const isFile = values.page === 'file';
 const source = join('src', values.page);
-if (!values.out || !Object.hasOwn(PICTURES, values.page) || (values.page === 'file') !== (values.engine !== undefined)) {
+if (!values.out || !Object.hasOwn(PICTURES, values.page) || isFile !== (values.engine !== undefined)) {
   console.error('usage: node build.mjs --out FILE [--page report|lesson|file] [--modules DIR] [--engine DIR]');
   process.exit(2);
 }
@@ -77,15 +78,16 @@ function fill(template, name, value) {
 // Texts of screens that only live sessions have.
 const kOnlyLive =
   /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|explore|debrief|end|bye|pause|trouble|progress|file|door)\./;
-const withoutLiveTexts = {
+const kStarting = /^(trouble\.title|file\.(old_browser|broken))$/; // all that is said before a lesson file is unpacked
+const textsThat = (isKept) => ({
   name: 'texts',
   setup({ onLoad }) {
     onLoad({ filter: /shared.texts.en\.json$/ }, ({ path }) => {
-      const texts = Object.entries(JSON.parse(readFileSync(path, 'utf8'))).filter(([key]) => !kOnlyLive.test(key));
+      const texts = Object.entries(JSON.parse(readFileSync(path, 'utf8'))).filter(([key]) => isKept(key));
       return { contents: JSON.stringify(Object.fromEntries(texts)), loader: 'json' };
     });
   },
-};
+});
 
 // Style sheets that a script puts into a tree of its own: `import sheet from './x.css?text'`.
 const sheets = {
@@ -101,24 +103,30 @@ const script = await bundle(existsSync(join(here, source, 'main.tsx')) ? `${sour
   jsx: 'automatic',
   jsxImportSource: 'preact',
   platform: 'browser',
-  plugins: values.page === 'file' ? [sheets] : [sheets, withoutLiveTexts],
+  plugins: isFile ? [sheets] : [sheets, textsThat((key) => !kOnlyLive.test(key))],
   format: 'iife',
   target: kTarget,
 });
-const style = await bundle(`${source}/style.css`, { target: kTarget });
-const code = script.text.trimEnd();
+
+// The page of a lesson file, what its worker runs, and what that runs on.
+async function packedParts(folder) {
+  const packed = (id, bytes) => `<script type="application/x-lzma" id="${id}">${textOf(lzma(bytes))}</script>\n`;
+  const worker = await bundle(`${source}/worker.ts`, { platform: 'browser', format: 'iife', target: kTarget });
+  const engine = `${readFileSync(join(folder, 'kith_engine.js'), 'utf8')}\n${worker.text}`;
+  return (
+    packed('kith-page', Buffer.from(script.text)) +
+    packed('kith-engine-script', Buffer.from(engine)) +
+    packed('kith-engine', readFileSync(join(folder, 'kith_engine.wasm')))
+  );
+}
+const engine = values.engine ? await packedParts(values.engine) : '';
+
+// A lesson file brings its style along.
+const boot = isFile ? await bundle(`${source}/boot.ts`, { platform: 'browser', plugins: [textsThat((key) => kStarting.test(key))], format: 'iife', target: kTarget }) : script;
+const style = isFile ? { text: '' } : await bundle(`${source}/style.css`, { target: kTarget });
+const code = boot.text.trimEnd();
 checkInlineScript(code);
 if (/<\/style/i.test(style.text)) throw new Error('the style contains </style');
-
-// What the worker runs, and what it runs on, packed.
-async function packedEngine(folder) {
-  const packed = (id, bytes) =>
-    `<script type="application/gzip" id="${id}">${gzipSync(bytes, { level: 9 }).toString('base64')}</script>\n`;
-  const worker = await bundle(`${source}/worker.ts`, { platform: 'browser', format: 'iife', target: kTarget });
-  const script = `${readFileSync(join(folder, 'kith_engine.js'), 'utf8')}\n${worker.text}`;
-  return packed('kith-engine-script', script) + packed('kith-engine', readFileSync(join(folder, 'kith_engine.wasm')));
-}
-const engine = values.engine ? await packedEngine(values.engine) : '';
 
 const hash = createHash('sha256').update(code, 'utf8').digest('base64');
 const policy = [

@@ -1,4 +1,5 @@
 // The engine of a lesson file: WebAssembly in a worker, both packed into the page.
+import { packedIn, scriptIn } from './packed';
 
 // What a lesson shows and asks, by numbers.
 export interface Lesson {
@@ -14,14 +15,25 @@ export interface State {
   teaching: boolean;
   lesson?: Lesson; // if one was chosen
   refusal: { reason: string; text: string } | null;
+  warnings?: string[]; // about the inputs
   restored?: { events: unknown[]; lessons: Lesson[] }; // all of a log in which lessons were left out
 }
 
-async function unpacked(id: string): Promise<ArrayBuffer> {
-  const text = document.getElementById(id)?.textContent?.trim() ?? '';
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(stream).arrayBuffer();
+// What is wrong with the inputs, and where; lines and columns from 1.
+export interface Diagnostic {
+  file: string | null;
+  line: number | null;
+  column: number | null;
+  text: string; // as `kith validate` prints it
+}
+
+export class EngineError extends Error {
+  constructor(
+    message: string,
+    readonly diagnostics: Diagnostic[] = [],
+  ) {
+    super(message);
+  }
 }
 
 // Requests are answered one after the other.
@@ -31,21 +43,20 @@ export class Engine {
   private constructor(private readonly worker: Worker) {
     worker.onmessage = ({ data }: MessageEvent<string>) => {
       const next = this.waiting.shift();
-      const reply = JSON.parse(data) as { error?: string };
+      const reply = JSON.parse(data) as { error?: string; diagnostics?: Diagnostic[] };
       if (reply.error === undefined) next?.resolve(reply as never);
-      else next?.reject(new Error(reply.error));
+      else next?.reject(new EngineError(reply.error, reply.diagnostics));
     };
     worker.onerror = (event) => {
       for (const { reject } of this.waiting.splice(0)) reject(new Error(event.message));
     };
   }
 
-  static async start(): Promise<Engine> {
-    const [script, wasm] = await Promise.all([unpacked('kith-engine-script'), unpacked('kith-engine')]);
-    const address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
-    const worker = new Worker(address);
+  static start(): Engine {
+    const worker = new Worker(scriptIn('kith-engine-script'));
     const engine = new Engine(worker);
-    worker.postMessage(wasm, [wasm]);
+    const packed = packedIn('kith-engine');
+    worker.postMessage(packed, [packed.buffer]);
     return engine;
   }
 

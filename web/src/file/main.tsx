@@ -14,9 +14,9 @@ import { findDoor, Reporter, type DoorTrouble } from './doors/reporter';
 import { Engine } from './engine';
 import { LocalServer } from './local_server';
 import { emptyLog, eraseLog, recalledLog, type Log } from './log';
+import sheet from './style.css?text';
 import { Researcher } from './teacher';
 
-installTheme();
 const file = readDocument();
 const page = document.getElementById('page');
 
@@ -131,7 +131,7 @@ async function begin(): Promise<void> {
   const reporter = new Reporter(file, door, (found) => update({ trouble: found }));
   const log = await longestLog(door);
   hasLog = log !== null;
-  const engine = await Engine.start();
+  const engine = Engine.start();
   const server: LocalServer = new LocalServer(engine, file, log, learner, (isKept) => update({ isKept }), () => void reporter.news(server));
   await server.ready();
   useTransport(server);
@@ -147,16 +147,24 @@ async function begin(): Promise<void> {
 
 let learner = ''; // as the learning system knows them
 let hasLog = false;
-begin().catch((error: unknown) => {
+function start(): void {
+  installTheme();
+  const style = document.createElement('style');
+  style.textContent = sheet;
+  document.head.append(style);
+  begin().catch(giveUp);
+}
+
+function giveUp(error: unknown): void {
   console.error(error);
   if (!page) return;
-  const isOld = typeof DecompressionStream === 'undefined' || typeof WebAssembly === 'undefined';
   const again = (): void => {
     eraseLog(file, learner);
     location.reload();
   };
   page.replaceChildren();
-  if (isOld) render(<Trouble text={t('file.old_browser')} />, page);
-  else if (hasLog) render(<Trouble text={t('file.lost')} again={again} />, page);
+  if (hasLog) render(<Trouble text={t('file.lost')} again={again} />, page);
   else render(<Trouble text={t('file.broken')} />, page);
-});
+}
+
+start();

@@ -1,4 +1,7 @@
-// Runs the engine beside the page: the first message is the WebAssembly, every other a request, answered by a reply.
+// Runs the engine beside the page: the first message is the WebAssembly, packed, every other a request, answered by a
+// reply.
+import { expanded } from './packed';
+
 interface Module {
   _kith_engine: (request: number) => number;
   _malloc: (size: number) => number;
@@ -7,7 +10,7 @@ interface Module {
   stringToUTF8: (text: string, address: number, size: number) => void;
   lengthBytesUTF8: (text: string) => number;
 }
-declare const createKithEngine: (options: { wasmBinary: ArrayBuffer }) => Promise<Module>;
+declare const createKithEngine: (options: { wasmBinary: Uint8Array }) => Promise<Module>;
 
 const answerPage = postMessage as (message: unknown) => void;
 let engine: Promise<Module> | null = null;
@@ -21,9 +24,9 @@ function answer(module: Module, request: string): string {
   return reply;
 }
 
-onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => {
+onmessage = ({ data }: MessageEvent<Uint8Array | string>) => {
   if (typeof data !== 'string') {
-    engine = createKithEngine({ wasmBinary: data });
+    engine = createKithEngine({ wasmBinary: expanded(data) });
     return;
   }
   void engine?.then(
@@ -37,4 +40,3 @@ onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => {
     (error: unknown) => answerPage(JSON.stringify({ error: String(error) })),
   );
 };
-export {};
