@@ -5,49 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "kith/bec/transfer.hpp"
 #include "kith/random/distributions.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {
 namespace {
-
-// Where the keys of a demonstration lead from another start.
-struct Transfer {
-  IntegerVector counts;            // so far
-  std::optional<StartIndex> rest;  // where the person's own way goes on; nothing at the end
-};
-
-// Presses the keys of the demonstration one after the other, passing over those that do nothing, until the path ends or
-// there are no more. Where behaviours are not tabulated only the first key is pressed, and the robot's way taken from
-// there; nothing if it does nothing.
-std::optional<Transfer> transferred(const Atlas& atlas, StartIndex demonstration, StartIndex test) {
-  const auto id = atlas.id(test);
-  const auto& mdp = atlas.domain().mdp(id.mdp);
-  const auto choice_of = [&](StateIndex state, ActionIndex action) -> std::optional<std::size_t> {
-    const auto choices = mdp.choices(state);
-    const auto found =
-        std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return c.action == action; });
-    if (found == choices.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - choices.begin());
-  };
-  if (!atlas.find_tables()) {
-    const auto choice = choice_of(id.start, atlas.action(demonstration));
-    if (!choice) return std::nullopt;
-    return Transfer{atlas.deviation_counts(test, *choice), std::nullopt};
-  }
-  Transfer transfer{IntegerVector(atlas.domain().num_features()), std::nullopt};
-  auto state = id.start;
-  for (const auto at : atlas.path(demonstration)) {
-    const auto choice = choice_of(state, atlas.action(at));
-    if (!choice) continue;
-    const auto& outcome = mdp.outcomes(mdp.choices(state)[*choice]).front();
-    transfer.counts += mdp.integer_features(outcome);
-    state = outcome.next;
-    if (mdp.is_terminal(state)) return transfer;
-  }
-  transfer.rest = atlas.index({id.mdp, state});
-  return transfer;
-}
 
 // Does, with some probability, what the robot did in a demonstration that looked similar.
 class ImitatingLearner final : public LikeBayesian {

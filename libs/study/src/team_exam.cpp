@@ -1,6 +1,7 @@
 #include "team_exam.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "kith/random/stream.hpp"
 #include "kith/study/team_streams.hpp"
@@ -8,10 +9,11 @@
 namespace kith {
 namespace {
 
-// Of people whose answers do not follow from a belief that could be graded.
+// Of people whose answers do not follow from a belief that could be graded: questions, and in how many sittings. In
+// each of these the person answers by other weights.
 constexpr std::size_t kQuestionsInstead = 240;
-constexpr std::size_t kTimes = 4;                 // that each is answered
-constexpr std::size_t kNextTime = 1'000'000'000;  // answers are drawn by period: this many periods later
+constexpr std::size_t kSittings = 8;
+constexpr std::size_t kNextSitting = 1'000'000'000;  // answers are drawn by period: this many periods later
 
 // The sum in the order of size, so that seats do not matter to the last bit.
 double mean(std::vector<double> values) {
@@ -23,17 +25,19 @@ double mean(std::vector<double> values) {
 
 }  // namespace
 
-ExamGrades TeamExaminer::grades_of(const Learner& learner, std::size_t period) const {
+ExamGrades TeamExaminer::grades_of(const Learner& learner, std::size_t period) {
   if (learner.answers_as_believed()) return cache_.exam().grade(*learner.belief(), cache_.behaviours());
-  const auto starts = cache_.exam().questions(kQuestionsInstead, {}, RandomStream{0}.split("exam"));
-  const double weight = 1.0 / static_cast<double>(kTimes * starts.size());
+  if (instead_.empty()) instead_ = cache_.exam().questions(kQuestionsInstead, {}, RandomStream{0}.split("exam"));
+  const std::span<const StartIndex> starts{instead_};
+  const auto length = (starts.size() + kSittings - 1) / kSittings;
   ExamGrades grades;
-  for (std::size_t time = 0; time < kTimes; ++time) {
-    const auto response = learner.answer(cache_.behaviours(), starts, period + time * kNextTime);
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      const auto grade = grade_answer(cache_.atlas(), starts[i], response.answers[i]);
-      grades.all.share_right += weight * grade.share_right;
-      grades.all.regret += weight * grade.regret;
+  for (std::size_t begin = 0, sitting = 0; begin < starts.size(); begin += length, ++sitting) {
+    const auto asked = starts.subspan(begin, std::min(length, starts.size() - begin));
+    const auto response = learner.answer(cache_.behaviours(), asked, period + sitting * kNextSitting);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const auto grade = grade_answer(cache_.atlas(), asked[i], response.answers[i]);
+      grades.all.share_right += grade.share_right / static_cast<double>(starts.size());
+      grades.all.regret += grade.regret / static_cast<double>(starts.size());
     }
   }
   return grades;

@@ -22,13 +22,14 @@ class TeamExaminer {
   void at_end(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member);
 
  private:
-  [[nodiscard]] ExamGrades grades_of(const Learner& learner, std::size_t period) const;
+  [[nodiscard]] ExamGrades grades_of(const Learner& learner, std::size_t period);
   void write(std::size_t period, const Learner& learner, const LearnerRecord& row, const ExamGrades& grades);
   void ask(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member);
 
   TeachingCache& cache_;
   const StudySpec& spec_;
   TeamRecord& record_;
+  std::vector<StartIndex> instead_;  // asked of people whose belief cannot be graded; found when first needed
 };
 
 // The exam of the team from those of its members.
