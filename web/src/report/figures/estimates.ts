@@ -1,65 +1,23 @@
 // What the teacher can tell about people, beside the truth.
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
-import { panels, yAxis } from '../panels';
+import { panels } from '../panels';
 import { type Study, rowsOf } from '../study';
 import { formatNumber } from '../words';
 import type { Figure } from './figure';
+import { reliability } from './reliability';
 
 function masterySpec(rows: Row[], width: number): Spec {
-  return panels(1, width, { left: 52, min: 170, max: 1, gap: 22, rowGap: 54 }, (_, place) => {
-    const values = rows.map((row) => ({
-      predicted: num(row.predicted),
-      actual: num(row.actual),
-      low: num(row.actual_low),
-      high: num(row.actual_high),
-      n: num(row.n),
-    }));
-    const scale: Spec = { domain: [0, 1], nice: false };
-    const x: Spec = {
-      type: 'quantitative',
-      scale,
-      axis: { title: 'Predicted probability of mastery', grid: false, labelFlush: false, tickCount: 5 },
-    };
-    const y: Spec = {
-      type: 'quantitative',
-      scale,
-      axis: yAxis(place, { title: 'True probability', domain: false, tickCount: 5 }, true),
-    };
-    return {
-      data: { values },
-      width: place.width,
+  return panels(1, width, { left: 52, min: 170, max: 1, gap: 22, rowGap: 54 }, (_, place) =>
+    reliability(place, {
+      rows,
+      x: { field: 'predicted', title: 'Predicted probability of mastery', name: 'Predicted' },
+      y: { field: 'actual', title: 'True probability', name: 'True' },
+      limits: ['actual_low', 'actual_high'],
+      count: 'Periods',
       height: 220,
-      layer: [
-        {
-          data: {
-            values: [
-              { predicted: 0, actual: 0 },
-              { predicted: 1, actual: 1 },
-            ],
-          },
-          mark: { type: 'line', stroke: 'var(--text)', strokeWidth: 1, strokeDash: [4, 3], opacity: 0.6 },
-          encoding: { x: { ...x, field: 'predicted' }, y: { ...y, field: 'actual' } },
-        },
-        {
-          mark: { type: 'rule', stroke: 'var(--text)', strokeWidth: 1.2, opacity: 0.7 },
-          encoding: { x: { ...x, field: 'predicted' }, y: { ...y, field: 'low' }, y2: { field: 'high' } },
-        },
-        {
-          mark: { type: 'point', filled: true, fill: 'var(--text)', size: 46, opacity: 1 },
-          encoding: {
-            x: { ...x, field: 'predicted' },
-            y: { ...y, field: 'actual' },
-            tooltip: [
-              { field: 'predicted', title: 'Predicted', format: '.2~f' },
-              { field: 'actual', title: 'True', format: '.2~f' },
-              { field: 'n', title: 'Periods' },
-            ],
-          },
-        },
-      ],
-    };
-  });
+    }),
+  );
 }
 
 export function estimateFigures(study: Study): Figure[] {

@@ -1,70 +1,26 @@
 // Forecasts beside what happened.
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
-import { panels, yAxis } from '../panels';
+import { panels } from '../panels';
 import { type Study, rowsOf } from '../study';
 import { formatNumber } from '../words';
 import { dots } from './dots';
 import type { Figure } from './figure';
 import { range } from './gist';
+import { reliability } from './reliability';
 
 function calibrationSpec(rows: Row[], ahead: number[], width: number): Spec {
-  return panels(ahead.length, width, { left: 52, min: 170, max: 3, gap: 22, rowGap: 54 }, (i, place) => {
-    const values = rows
-      .filter((row) => num(row.within) === ahead[i])
-      .map((row) => ({
-        forecast: num(row.forecast),
-        share: num(row.share),
-        low: num(row.low),
-        high: num(row.high),
-        n: num(row.n),
-      }));
-    const scale: Spec = { domain: [0, 1], nice: false };
-    const x: Spec = {
-      type: 'quantitative',
-      scale,
-      axis: { title: place.lastRow ? 'Forecast probability' : null, grid: false, labelFlush: false, tickCount: 5 },
-    };
-    const y: Spec = {
-      type: 'quantitative',
-      scale,
-      axis: yAxis(place, { title: 'Share of teams done', domain: false, tickCount: 5 }, true),
-    };
-    return {
-      title: `After ${ahead[i] === 1 ? 'one more period' : `${String(ahead[i])} more periods`}`,
-      data: { values },
-      width: place.width,
+  return panels(ahead.length, width, { left: 52, min: 170, max: 3, gap: 22, rowGap: 54 }, (i, place) => ({
+    title: `After ${ahead[i] === 1 ? 'one more period' : `${String(ahead[i])} more periods`}`,
+    ...reliability(place, {
+      rows: rows.filter((row) => num(row.within) === ahead[i]),
+      x: { field: 'forecast', title: place.lastRow ? 'Forecast probability' : null, name: 'Forecast' },
+      y: { field: 'share', title: 'Share of teams done', name: 'Share done' },
+      limits: ['low', 'high'],
+      count: 'Forecasts',
       height: 170,
-      layer: [
-        {
-          data: {
-            values: [
-              { forecast: 0, share: 0 },
-              { forecast: 1, share: 1 },
-            ],
-          },
-          mark: { type: 'line', stroke: 'var(--text)', strokeWidth: 1, strokeDash: [4, 3], opacity: 0.6 },
-          encoding: { x: { ...x, field: 'forecast' }, y: { ...y, field: 'share' } },
-        },
-        {
-          mark: { type: 'rule', stroke: 'var(--text)', strokeWidth: 1.2, opacity: 0.7 },
-          encoding: { x: { ...x, field: 'forecast' }, y: { ...y, field: 'low' }, y2: { field: 'high' } },
-        },
-        {
-          mark: { type: 'point', filled: true, fill: 'var(--text)', size: 46, opacity: 1 },
-          encoding: {
-            x: { ...x, field: 'forecast' },
-            y: { ...y, field: 'share' },
-            tooltip: [
-              { field: 'forecast', title: 'Forecast', format: '.2~f' },
-              { field: 'share', title: 'Share done', format: '.2~f' },
-              { field: 'n', title: 'Forecasts' },
-            ],
-          },
-        },
-      ],
-    };
-  });
+    }),
+  }));
 }
 
 function calibrationFigures(study: Study): Figure[] {
