@@ -48,10 +48,12 @@ std::vector<PlannedContrast> contrasts_of(const PublishedRun& run) {
   const auto parsing = parse_toml(run.read(file), file);
   const auto* value = parsing.document ? parsing.document->root.find("contrast") : nullptr;
   if (value == nullptr || value->array() == nullptr) return contrasts;
+
   const auto text = [](const TomlTable& table, const char* key) {
     const auto* found = table.find(key);
     return found != nullptr && found->string() != nullptr ? *found->string() : std::string{};
   };
+
   for (const auto& element : *value->array()) {
     const auto* table = element.table();
     const auto* weights = table != nullptr ? table->find("weights") : nullptr;
@@ -61,6 +63,7 @@ std::vector<PlannedContrast> contrasts_of(const PublishedRun& run) {
                              .factor = text(*table, "factor"),
                              .response = text(*table, "response"),
                              .primary = primary != nullptr && primary->boolean() != nullptr && *primary->boolean()};
+
     for (const auto& entry : weights->table()->entries()) {
       const auto* real = entry.value.real();
       const auto* integer = entry.value.integer();

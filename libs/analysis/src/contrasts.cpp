@@ -111,6 +111,8 @@ PlannedContrast difference_of_means(std::string name, const std::vector<std::str
 PlannedContrast parse_contrast(std::string_view text) {
   PlannedContrast contrast;
   auto rest = text;
+
+  // "name [factor]: terms", or terms alone.
   if (const auto colon = text.find(": "); colon != std::string_view::npos) {
     auto head = trimmed(text.substr(0, colon));
     rest = text.substr(colon + 1);
@@ -124,6 +126,7 @@ PlannedContrast parse_contrast(std::string_view text) {
   }
   rest = trimmed(rest);
   if (contrast.name.empty()) contrast.name = rest;
+
   bool any_number = false, any_added = false, any_subtracted = false;
   double sum = 0.0, largest = 0.0;
   for (auto& term : terms_of(rest, text)) {
@@ -137,6 +140,7 @@ PlannedContrast parse_contrast(std::string_view text) {
     largest = std::max(largest, std::abs(weight.weight));
     contrast.weights.push_back(std::move(weight));
   }
+
   if (!any_added || !any_subtracted) refuse_contrast(text, "it compares nothing: all signs are alike");
   if (!any_number) {
     average(contrast.weights);

@@ -64,6 +64,7 @@ RowFilter parse_row_filter(std::string_view text) {
 Dataset Dataset::parse(std::string_view text, const std::string& file, std::span<const std::string> wanted) {
   Dataset data;
   data.file_ = file;
+
   std::vector<Column> columns;
   if (wanted.empty()) {
     columns = read_csv_header(text, file);
@@ -73,6 +74,7 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
   for (const auto& column : columns) data.columns_.push_back(column.name);
   data.cells_.resize(columns.size());
   data.kinds_.resize(columns.size());
+
   auto guard = guard_of(file);
   const auto keep = [&](const CsvRow& row) {
     guard.take(row.cells.size() * kBytesPerCell + row.text.size());
@@ -84,6 +86,7 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
       data.cells_[c].push_back(missing ? std::nullopt : std::optional{*value});
     }
   };
+
   auto diagnostics = read_csv(text, file, columns, keep, OtherColumns::kIgnore);
   if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
   return data;
@@ -219,7 +222,10 @@ void Dataset::refuse_filters(std::span<const RowFilter> filters) const {
     const auto& texts = cells(filter.column);
     const auto passes = [&](const auto& cell) { return (cell.value_or("") == filter.value) == filter.equal; };
     if (std::any_of(texts.begin(), texts.end(), passes)) continue;
+
+    // This condition alone leaves no row.
     nothing.message = "no row has " + filter.column + (filter.equal ? "=" : "!=") + filter.value;
+
     std::vector<std::string> values;
     bool any_missing = false;
     for (const auto& cell : texts) {
@@ -227,6 +233,7 @@ void Dataset::refuse_filters(std::span<const RowFilter> filters) const {
       if (cell && values.size() <= kMostDistinct && std::find(values.begin(), values.end(), *cell) == values.end())
         values.push_back(*cell);
     }
+
     const auto nearest = filter.equal ? nearest_word(filter.value, values) : std::string{};
     const bool many = values.size() > kMostDistinct;
     if (many) values.resize(kMostDistinct);
@@ -237,6 +244,7 @@ void Dataset::refuse_filters(std::span<const RowFilter> filters) const {
                                         (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
     throw Error{{std::move(nothing)}};
   }
+
   nothing.message = "no row satisfies all conditions together";
   nothing.hint = "leave one of them out";
   throw Error{{std::move(nothing)}};

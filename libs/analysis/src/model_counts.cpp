@@ -83,6 +83,7 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
       fmt::format("Median {} (Kaplan-Meier)", data.response),
       {{"group", Kind::kText}, {"n", Kind::kCount}, {"censored", Kind::kCount}, {"median", Kind::kNumber}},
       {}};
+
   const bool stratified = data.factors.size() > 1;
   TestFamily family{.statistic = TestFamily::Statistic::kChiSquared, .are_terms = false};
   bool any_tested = false;
@@ -101,6 +102,7 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
                              count_cell(curve.observations - curve.events),
                              curve.median ? TableCell{*curve.median} : text_cell("not reached")});
     }
+
     if (!with_tests) continue;
     const auto strata = strata_without(data, f);
     const auto test =
@@ -110,9 +112,11 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
     const auto df = test ? static_cast<std::size_t>(test->df.front()) : 0;
     family.tests.push_back(term_result(factor.name, df, test));
   }
+
   add_method(finding, {"Kaplan-Meier estimates", "kaplan1958"});
   if (any_tested)
     add_method(finding, {stratified ? "log-rank tests stratified by the other factors" : "the log-rank test"});
+
   if (with_tests) {
     const auto degrees = [](const TermResult& test) { return test.statistic ? count_cell(test.df) : text_cell(""); };
     finding.tables.push_back(shown<TermResult>(

@@ -253,6 +253,7 @@ class Writer {
     const auto& factor = model_.design.factors[f];
     if (factor.levels.size() < 2 || factor.levels.size() > kMostLevelsInPairs) return;
     const bool is_family = factor.levels.size() > 2;
+
     std::vector<Comparison> comparisons;
     for (const auto& group : means_of(f, by).groups) {
       auto pairs = estimate_contrasts(model_, group, pairwise_contrasts(group),
@@ -269,12 +270,14 @@ class Writer {
       }
       for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
     }
+
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
     ComparisonFamily family{
         .kind = ComparisonFamily::Kind::kPairs, .factor = factor.name, .by = by_name, .is_adjusted = is_family};
     add_family(pairs_caption(factor.name, by_name, is_family, model_.link), "pair", std::move(family), comparisons);
     if (is_family && !comparisons.empty())
       add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
+
     EquivalenceTests equivalence{model_, options_};
     if (!equivalence) return;
     equivalence.add(comparisons);

@@ -85,6 +85,7 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
     finding.warnings.push_back(empty_cells_text(static_cast<std::size_t>(empty), data.observations));
   if (auto text = unbalanced_text(model.fixed.design, data.observations); !text.empty())
     finding.warnings.push_back(std::move(text));
+
   const auto is_zero = [](const VarianceComponent& one) { return one.variance == 0.0; };
   const bool all_zero = std::all_of(model.components.begin(), model.components.end(), is_zero);
   for (const auto& component : model.components) {
@@ -102,6 +103,7 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
           component.groups, component.name));
     }
   }
+
   if (data.is_ordinal) {
     finding.warnings.push_back(
         "ratings are analysed as numbers with equal steps, because kith's ordinal models have no random intercepts; "
@@ -150,21 +152,25 @@ Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& option
   Finding finding{.id = data.response, .model = formula_text(data)};
   finding.topic = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
+
   MixedModelOptions fit;
   fit.confidence = 1.0 - options.alpha;
   const auto model = fit_mixed_model(data.values, data.factors, data.terms, data.groups, fit);
   finding.sentence = fmt::format("Mixed model of {} ({} {} in {} groups).", data.response, data.values.size(),
                                  data.observations, data.groups.front().levels.size());
+
   if (!model) {
     finding.sentence += " It cannot be fitted, so nothing is tested: " + model.reason() + ".";
     if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) finding.tables.push_back(std::move(*means));
     return finding;
   }
+
   const auto tests = term_tests(model->fixed, SumsOfSquares::kTypeII);
   for (std::size_t t = 0; t < data.terms.size(); ++t) {
     finding.sentence += " " + term_sentence(data, t, tests[t].test, eta_squared_of(tests[t].test, options.alpha),
                                             &model->fixed, options.alpha);
   }
+
   finding.sentence += likeness_sentence(*model, data);
   add_mixed_warnings(*model, data, finding);
   add_mixed_results(data, *model, options, finding);

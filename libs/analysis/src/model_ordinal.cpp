@@ -56,6 +56,7 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   finding.sentence =
       fmt::format("Proportional odds model of {} ({} {}).", data.response, data.values.size(), data.observations);
+
   const auto ratings = ratings_of(data);
   const auto model = fit_cumulative_logit(ratings, data.factors, data.terms, 1.0 - options.alpha);
   if (!model) {
@@ -66,6 +67,7 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
           " " + term_sentence(data, t, model->term_tests[t].test, Estimable<Interval>::impossible("of a linear model"),
                               nullptr, options.alpha);
     }
+
     if (!model->term_tests.empty()) {
       auto family = tests_of(model->term_tests, TestFamily::Residuals::kWhole);
       family.statistic = TestFamily::Statistic::kChiSquared;
@@ -77,6 +79,7 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
       finding.sentence += " An odds ratio above 1 stands for higher ratings.";
     }
     add_method(finding, {"proportional odds model with likelihood-ratio tests", "mccullagh1980"});
+
     const auto& counts = model->fixed.design.counts;
     std::size_t least = kFewRatings;
     for (const auto count : counts) least = count > 0 ? std::min(least, count) : least;
@@ -93,6 +96,7 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
     }
     add_marginal_results(model->fixed, options, false, finding, finding.tables);
   }
+
   if (!data.factors.empty()) {
     if (auto shares = shares_table(data, ratings)) finding.tables.push_back(std::move(*shares));
   }

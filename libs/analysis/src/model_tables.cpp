@@ -22,14 +22,18 @@ ResultTable cell_means(const ModelData& data, double confidence, bool with_limit
   for (const auto& factor : data.factors) table.columns.push_back({factor.name, Kind::kText, factor.name});
   table.columns.insert(table.columns.end(), {{"n", Kind::kCount}, {"mean"}, {"sd"}});
   if (with_limits) table.columns.insert(table.columns.end(), {{"lower limit"}, {"upper limit"}});
+
   const auto groups = split_by(data.values, cells);
   for (std::size_t cell = 0; cell < groups.size(); ++cell) {
     std::vector<TableCell> row;
+
+    // A cell is a number whose digits are the levels, that of the last factor first.
     auto rest = cell;
     for (auto factor = data.factors.rbegin(); factor != data.factors.rend(); ++factor) {
       row.insert(row.begin(), text_cell(factor->levels[rest % factor->levels.size()]));
       rest /= factor->levels.size();
     }
+
     row.push_back(count_cell(groups[cell].size()));
     const auto interval = mean_interval(groups[cell], confidence);
     row.push_back(groups[cell].size() == 1 ? number_cell(groups[cell].front())

@@ -58,11 +58,13 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
     throw std::invalid_argument{"planned_analyses: the design has no strategies or no compositions"};
   const auto teams = made_up_teams(design);
   const auto rows = group_teams(teams);
+
   std::vector<PlannedAnalysis> plan;
   const auto add = [&](const std::optional<Finding>& finding, const std::vector<PlannedContrast>& contrasts) {
     if (finding)
       plan.push_back({finding->id, finding->title(), finding->question, finding->model, finding->methods, contrasts});
   };
+
   const auto responses = outcomes_of(teams);
   if (!rows.empty()) {
     const auto factors = team_model(teams, rows, columns::kKnowledge, teams.knowledge).factors;
@@ -70,6 +72,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
     for (const auto& contrast : design.contrasts) {
       if (is_testable(factors, contrast)) testable.push_back(contrast);
     }
+
     if (const auto finding = primary(teams, testable, options)) add(finding, primary_hypotheses(design));
     for (const auto& [name, values] : responses) {
       auto planned = options;
@@ -81,6 +84,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
       planned.contrasts.insert(planned.contrasts.end(), contrasts.begin(), contrasts.end());
       add(effects(teams, name, *values, planned), contrasts);
     }
+
     for (const auto& [name, values] : responses) add(effects_within(teams, name, *values, options), {});
     for (const auto& [name, values] : responses) add(beliefs(teams, name, *values, options), {});
     for (const auto& [name, values] : responses) add(variation(teams, name, *values, options), {});

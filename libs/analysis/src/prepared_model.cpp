@@ -164,6 +164,7 @@ void find_groups(const Dataset& data, const Formula& formula, const ModelQuestio
   used.push_back(formula.response);
   auto groups = find_row_groups(prepared.rows, used);
   auto& notes = prepared.notes;
+
   const bool is_asked = !formula.random_intercepts.empty();
   for (const auto& item : groups.items) {
     const auto in_intercept = [&](const auto& columns) {
@@ -178,6 +179,7 @@ void find_groups(const Dataset& data, const Formula& formula, const ModelQuestio
         intercepts_text(is_asked || groups.intercepts.empty() ? std::vector<std::vector<std::string>>{{item}}
                                                               : with_item(groups.intercepts, item))));
   }
+
   if (!is_asked) notes.insert(notes.end(), groups.notes.begin(), groups.notes.end());
   if (is_asked) {
     prepared.intercepts = formula.random_intercepts;
@@ -226,6 +228,7 @@ void check_sizes(const Dataset& data, const std::string& column) {
 PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, const AnalysisOptions& options) {
   const auto formula = formula_of(question.formula);
   check_terms(formula);
+
   std::vector<std::string> columns = formula.factors;
   columns.push_back(formula.response);
   if (question.observed) columns.push_back(*question.observed);
@@ -234,6 +237,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
       if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
     }
   }
+
   PreparedModel prepared{.rows = data.complete(columns)};
   const auto& complete = prepared.rows;
   if (complete.num_rows() == 0) {
@@ -243,6 +247,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
                             .hint = "the model uses the columns " + with_and(columns),
                             .infeasible = true}}};
   }
+
   auto& model = prepared.model;
   model.response = formula.response;
   model.terms = formula.terms;
@@ -254,6 +259,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   }
   check_comparisons(model.factors, options);
   if (question.observed) model.observed = observed_of(complete, *question.observed);
+
   if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
     prepared.notes.push_back(fmt::format("{} of {} rows left out because of missing values ({})", dropped,
                                          data.num_rows(), missing_text(data, columns)));
@@ -264,6 +270,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
     if (auto note = note_on_numbers_as_levels(factor)) prepared.notes.push_back(std::move(*note));
   }
   find_groups(data, formula, question, prepared);
+
   auto kind = kind_of_response(data, formula, question);
   if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values)) {
     kind = ColumnKind::kOrdinal;
@@ -275,6 +282,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   model.is_count = kind == ColumnKind::kCount;
   model.is_ordinal = kind == ColumnKind::kOrdinal;
   if (model.is_count) check_counts(complete, formula.response, model.values);
+
   model.is_binary = is_binary(model.values);
   if (model.is_binary) {
     prepared.notes.push_back(

@@ -165,12 +165,15 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
   RowGroups groups;
   const auto identifiers = identifiers_of(rows, used);
   std::vector<Factor> known;
+
   const auto add = [&](const std::vector<std::string>& columns) {
     auto grouping = row_factor(rows, columns);
     if (grouping.levels.size() == rows.num_rows() || grouping.levels.size() < 2 || !is_new(grouping, known)) return;
     known.push_back(std::move(grouping));
     groups.intercepts.push_back(columns);
   };
+
+  // Numbers that begin anew within another identifier say something only together with it.
   std::vector<const Identifier*> numbered;
   for (const auto& identifier : identifiers) {
     const auto outer = std::find_if(identifiers.begin(), identifiers.end(), [&](const Identifier& other) {
@@ -180,6 +183,7 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
       numbered.push_back(&identifier);
       continue;
     }
+
     if (!identifier.is_stated && identifier.factor.levels.size() < kFewestGroups) {
       if (identifier.factor.levels.size() > 1)
         groups.notes.push_back(
@@ -190,12 +194,14 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
     }
     add({identifier.column});
   }
+
   for (const auto* const inner : numbered) {
     const auto outer = std::find_if(identifiers.begin(), identifiers.end(), [&](const Identifier& other) {
       return &other != inner && is_numbered_within(*inner, other);
     });
     add({outer->column, inner->column});
   }
+
   for (const auto& people : shared_people_of(rows, used)) add(people);
   for (const auto& item : items_of(rows, used)) {
     const std::vector<std::string> alone{item};
