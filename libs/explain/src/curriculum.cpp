@@ -187,17 +187,22 @@ class CurriculumMaker {
       for (const auto& shown : component.demonstrations) is_seen[atlas_.id(shown.demo).mdp.value()] = true;
       for (const auto& test : component.tests) is_seen[atlas_.id(test.demo).mdp.value()] = true;
     }
+
     std::vector<StartIndex> starts;
     for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
       if (atlas_.is_candidate(demo) && !is_seen[atlas_.id(demo).mdp.value()]) starts.push_back(demo);
     }
+
     auto random = RandomStream{options_.seed}.split("fresh");
     const auto n = std::min(starts.size(), atlas_.find_tables() ? kTried : kTriedWithoutTables);
     for (std::size_t i = 0; i < n; ++i) std::swap(starts[i], starts[i + uniform_index(starts.size() - i, random)]);
     const auto points = beliefs(atlas_.domain().prior());
+
+    // The best tests are those that half of the people would answer rightly.
     std::vector<CurriculumTest> tried;
     for (std::size_t i = 0; i < n; ++i) tried.push_back(graded({starts[i], {}}, points));
     std::ranges::stable_sort(tried, {}, [](const CurriculumTest& test) { return std::abs(test.share_right - 0.5); });
+
     for (auto& test : tried) {
       const auto world = atlas_.id(test.demo).mdp.value();
       if (curriculum_.fresh.size() == options_.fresh || is_seen[world] || test.share_right == 1.0) continue;

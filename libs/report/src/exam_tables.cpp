@@ -59,6 +59,7 @@ Values front_shares(const ReportDesign& design, const RunData& data, std::uint64
   const auto teams = teams_of_cells(design);
   std::set<std::string> compositions;
   for (const auto& cell : design.cells) compositions.insert(cell.composition);
+
   for (const auto& composition : compositions) {
     std::vector<std::size_t> cells;
     std::size_t n = data.teams.size();
@@ -67,8 +68,10 @@ Values front_shares(const ReportDesign& design, const RunData& data, std::uint64
       cells.push_back(c);
       n = std::min(n, teams[c].size());
     }
+
     auto random = RandomStream{seed}.split("efficiency").split(composition);
     for (std::size_t sample = 0; sample < kSamples; ++sample) {
+      // Of each cell the sums of items and knowledge: sums are on the front where means are.
       std::vector<std::pair<double, double>> means(cells.size());
       for (std::size_t k = 0; k < n; ++k) {
         const auto replicate = uniform_index(n, random);
@@ -78,6 +81,7 @@ Values front_shares(const ReportDesign& design, const RunData& data, std::uint64
           means[c].second += known_at_end(team, data);
         }
       }
+
       for (std::size_t c = 0; c < cells.size(); ++c) {
         if (is_on_front(means, c)) shares[cells[c]] += 1.0 / static_cast<double>(kSamples);
       }
@@ -103,6 +107,7 @@ Json exam_by_period_table(const ReportDesign& design, const RunData& data) {
     columns.push_back(outcome + "_high");
   }
   JsonTable table{columns};
+
   for (std::size_t series = 0; series < design.series.size(); ++series) {
     std::vector<const std::vector<ExamPoint>*> paths;
     std::vector<std::size_t> lengths;
@@ -112,6 +117,7 @@ Json exam_by_period_table(const ReportDesign& design, const RunData& data) {
       lengths.push_back(data.exam_paths[i].size() - 1);
     }
     if (paths.empty()) continue;
+
     const auto last = shown_periods(lengths);
     for (std::size_t period = 0; period <= last; ++period) {
       const auto values = [&](double ExamPoint::*value) {
@@ -119,6 +125,7 @@ Json exam_by_period_table(const ReportDesign& design, const RunData& data) {
         for (const auto* path : paths) list.push_back(state_after(*path, period).*value);
         return list;
       };
+
       auto row = Json::array({design.series[series].code, period, paths.size()});
       for (const auto cost : {&ExamPoint::items, &ExamPoint::minutes, &ExamPoint::person_minutes})
         row.push_back(number(mean_of(values(cost))));
@@ -140,10 +147,13 @@ Json efficiency_table(const RunFiles& run, const ReportDesign& design, const Run
   }
   columns.insert(columns.end(), {"on_front", "front_share"});
   JsonTable table{columns};
+
   const auto teams = teams_of_cells(design);
   const auto shares = front_shares(design, data, run.spec().seed);
   for (std::size_t c = 0; c < design.cells.size(); ++c) {
     if (teams[c].empty()) continue;
+
+    // Means of the cells with the same composition; `own` is the place of this one.
     std::vector<std::pair<double, double>> rivals;
     std::size_t own = 0;
     for (std::size_t other = 0; other < design.cells.size(); ++other) {
@@ -153,6 +163,7 @@ Json efficiency_table(const RunFiles& run, const ReportDesign& design, const Run
           mean_of(values_of(teams[other], data, [](const auto& team) { return team.items; })),
           mean_of(values_of(teams[other], data, [&](const auto& team) { return known_at_end(team, data); })));
     }
+
     auto row = Json::array({design.series[design.cells[c].series].code, design.cells[c].composition, teams[c].size()});
     add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.items; }));
     add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.minutes; }));

@@ -61,16 +61,20 @@ std::size_t num_completed(const FirstScreen& screen) {
 std::string headline(const FirstScreen& screen) {
   std::vector<std::string> parts;
   if (compares_with_alone(screen)) parts.push_back(headline_about_alone(screen));
+
   const auto hypotheses = planned(screen);
   if (!hypotheses.empty()) {
     const auto shown = static_cast<std::size_t>(std::count_if(hypotheses.begin(), hypotheses.end(), is_shown));
     parts.push_back(std::to_string(shown) + " of " + counted(hypotheses.size(), "planned difference") +
                     (shown == 1 ? " was found" : " were found"));
   }
+
   const auto strategies = num_together(screen);
   if (auto text = headline_about(screen, "strategy", "the " + std::to_string(strategies) + " strategies");
       strategies > 1 && !text.empty())
     parts.push_back(std::move(text));
+
+  // Without a comparison, what was found of compositions; without these, how long teams took.
   if (parts.empty()) {
     if (auto text = headline_about(screen, "composition", "compositions of the team"); !text.empty())
       parts.push_back(std::move(text));
@@ -83,6 +87,7 @@ std::string headline(const FirstScreen& screen) {
                     std::to_string(num_completed(screen)) + " of " + std::to_string(screen.data.teams.size()) +
                     " passed all tests");
   }
+
   std::string text;
   for (const auto& part : parts) text += (text.empty() ? "" : "; ") + part;
   return capitalised(text);
@@ -116,6 +121,7 @@ Json limits(const FirstScreen& screen) {
   } else {
     list.push_back("What people believe is not observed. Knowledge is what the teacher estimates from their answers.");
   }
+
   const auto outcome = known(screen);
   std::string means;
   for (const bool alone : {false, true}) {
@@ -125,6 +131,7 @@ Json limits(const FirstScreen& screen) {
     means += fmt::format("{:.{}f}", mean(values), 2);
     if (compares_with_alone(screen)) means += alone ? " one after the other" : " together";
   }
+
   if (!means.empty()) {
     list.push_back(
         "Passing all tests is not knowing everything: " + std::to_string(num_completed(screen)) + " of " +
@@ -134,6 +141,7 @@ Json limits(const FirstScreen& screen) {
              : "the share of a member's belief under which the robot would act as it does everywhere (knowledge) is ") +
         means + " on average.");
   }
+
   if (compares_with_alone(screen)) {
     const auto count = [&](bool alone) {
       return fmt::format("{:.{}f}", mean(values_of(screen, kPeriods, alone)), 1) + " periods are " +
@@ -142,6 +150,7 @@ Json limits(const FirstScreen& screen) {
     list.push_back("A period of a team takes the time of everybody in it: together, " + count(false) +
                    "; one after the other, " + count(true) + ".");
   }
+
   const auto all = all_answers(screen);
   if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.bound.has_value(); })) {
     list.push_back(

@@ -58,6 +58,7 @@ class DataReader {
     data_.has_costs = has_costs(run_.study);
     data_.has_forecasts = has_forecasts(run_.study);
     data_.has_estimates = has_estimates(run_.study);
+
     const Names wanted{columns::kCompleted,
                        columns::kPeriods,
                        columns::kKnowledge,
@@ -74,11 +75,13 @@ class DataReader {
                        columns::kForecastPeriodsLow,
                        columns::kForecastPeriodsHigh,
                        columns::kFewestParticles};
+
     const auto rows = read_table("teams.csv", wanted, [&](const auto& row) {
       if (row.team() == last) {
         row.refuse("E0606", "team " + std::to_string(last + 1) + " occurs twice", "remove the second row");
       }
       last = row.team();
+
       const auto most = max_period(row) * row.address().composition.size();
       auto& team = data_.teams[last];
       team.completed = row.boolean(columns::kCompleted);
@@ -92,6 +95,8 @@ class DataReader {
       team.area_sr = row.real(columns::kAreaSr);
       team.items =
           static_cast<double>(row.count(columns::kDemonstrations, 0, kMax) + row.count(columns::kTests, 0, kMax));
+
+      // What the study did not measure has no columns.
       if (data_.has_costs) {
         team.minutes = row.real(columns::kMinutes);
         team.person_minutes = row.real(columns::kPersonMinutes);
@@ -108,6 +113,7 @@ class DataReader {
       }
       if (row.has(columns::kFewestParticles)) team.fewest_particles = row.real(columns::kFewestParticles);
     });
+
     if (rows == num_teams) return;
     refuse_run(ErrorKind::kInvalidInput, "E0606", run_.folder / "tables" / "teams.csv",
                "the table has " + std::to_string(rows) + " teams, the study " + std::to_string(num_teams),

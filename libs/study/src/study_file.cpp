@@ -297,6 +297,7 @@ StudyReading load_study(const std::string& name_or_path, StudyReadOptions option
   const auto built_in =
       std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name_or_path; });
   if (built_in != known.end()) return parse_study(built_in->text, name_or_path, options);
+
   const std::filesystem::path path{name_or_path};
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) {
@@ -312,6 +313,7 @@ StudyReading load_study(const std::string& name_or_path, StudyReadOptions option
   if (std::filesystem::is_directory(path, failure)) {
     throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "': it is a folder"};
   }
+
   const auto text = text_of(path);
   if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "'"};
   options.folder = path.parent_path();

@@ -50,6 +50,7 @@ std::vector<Parameter> declared_in(std::string_view table) {
   const auto add = [&](const auto& keys) {
     for (const auto& key : keys) result.push_back(key.parameter);
   };
+
   if (table == "teacher") {
     add(teacher_keys());
     add(more_teacher_keys());
@@ -62,6 +63,7 @@ std::vector<Parameter> declared_in(std::string_view table) {
       all.push_back(kind.name);
       if (kind.released != nullptr) releasing.push_back(kind.name);
     }
+
     static const auto mastery = "when a component has been taught enough: " + alternatives(all);
     static const auto release = "who leaves a component before the team does: " + alternatives(releasing);
     result.push_back({.name = "mastery", .default_value = std::string{"all-right"}, .description = mastery});
@@ -72,6 +74,7 @@ std::vector<Parameter> declared_in(std::string_view table) {
   } else if (table == "record") {
     add(record_keys());
   }
+
   return result;
 }
 

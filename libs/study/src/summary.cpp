@@ -76,6 +76,7 @@ std::optional<CellSummary> pooled(const Cells& cells) {
     summary.completed += cell->cell.completed;
     summary.skipped += cell->cell.skipped;
   }
+
   if (summary.teams == 0) return std::nullopt;
   summary.periods = mean_sd(cells, summary.teams, &GatheredTeams::periods);
   summary.knowledge = mean_sd(cells, summary.teams, &GatheredTeams::knowledge);
@@ -83,6 +84,7 @@ std::optional<CellSummary> pooled(const Cells& cells) {
   summary.person_periods = mean_sd(cells, summary.teams, &GatheredTeams::person_periods);
   summary.minutes = mean_sd(cells, summary.teams, &GatheredTeams::minutes);
   summary.person_minutes = mean_sd(cells, summary.teams, &GatheredTeams::person_minutes);
+
   std::size_t examined = 0;
   for (const auto* cell : cells) examined += cell->share_right.size();
   if (examined == summary.teams) {
@@ -94,6 +96,7 @@ std::optional<CellSummary> pooled(const Cells& cells) {
     for (const auto* cell : cells) before += cell->regret_before.size();
     if (before == summary.teams) summary.exam->regret_before = mean_sd(cells, before, &GatheredTeams::regret_before);
   }
+
   return summary;
 }
 

@@ -278,6 +278,8 @@ std::vector<StudyTable> tables_of(const Study& study) {
                               "One row per demonstration shown; none if only teams are recorded."));
   tables.push_back(list_table(study, &R::progress, "progress.csv",
                               "One row per member and period; none if only teams are recorded."));
+
+  // Tables of what only some studies record.
   if (study.variants.front().record == RecordLevel::kParticles) tables.push_back(belief_table(study));
   if (has_exam(study)) {
     tables.push_back(list_table(study, &R::exams, "exam.csv",

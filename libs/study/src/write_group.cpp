@@ -70,9 +70,11 @@ TomlTable group_table(const GroupOptions& group) {
   }
   table.add("ask_name", group.ask_name);
   table.texts("collect_query", group.collect_query);
+
   consent.add("version", group.consent_version);
   consent.texts("text", group.consent_text);
   table.add("consent", consent.take());
+
   dropout.add("policy", std::string{name_of(group.dropout.policy)});
   dropout.add("grace_s", group.dropout.grace_s);
   dropout.count("min_active", group.dropout.min_active);
@@ -81,21 +83,25 @@ TomlTable group_table(const GroupOptions& group) {
     dropout.add("otherwise", std::string{name_of(group.dropout.otherwise)});
   }
   table.add("dropout", dropout.take());
+
   for (const auto& key : kGroupTimeKeys) {
     const auto limit = group.time.*key.member;
     if (key.is_always_written || limit > 0) time.add(std::string{key.name}, limit);
   }
   table.add("time", time.take());
+
   if (group.screens != GroupScreens{}) {
     GroupTable screens;
     for (const auto& key : kGroupScreenKeys) screens.add(std::string{key.name}, group.screens.*key.member);
     table.add("screens", screens.take());
   }
   if (group.discussion.choice.is_held()) table.add("discussion", discussion_table(group.discussion));
+
   screening.count("tests", group.screening.tests);
   screening.add("cut", group.screening.cut);
   screening.text("high", group.high_types);
   table.add("screening", screening.take());
+
   completion.add("prefix", group.completion.prefix);
   completion.text("redirect", group.completion.redirect);
   completion.add("pay_full", group.completion.pay_full);
