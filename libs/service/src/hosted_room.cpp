@@ -55,6 +55,8 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
                 std::vector<std::uint64_t> messages;
                 std::string problem;
                 std::int64_t last = 0;
+
+                // A room that does not replay is kept as it is stored, and says why it stands still.
                 try {
                   Room rebuilt{self->study_, self->setup_, cache};
                   for (const auto& event : events) {
@@ -67,6 +69,7 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
                 } catch (const std::exception& error) {
                   problem = error.what();
                 }
+
                 self->host_.post(self->number(), [self, room = std::move(room), messages = std::move(messages), problem,
                                                   last](TeachingCache&) mutable {
                   self->last_us_ = last;
@@ -218,6 +221,7 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
     is_unsaved_ = true;
     return;
   }
+
   is_unsaved_ = false;
   const auto done = std::exchange(saving_, std::nullopt);
   try {
@@ -230,13 +234,17 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
     broken_ = error.what();
     host_.on_trouble(number(), "room " + setup_.code + " stopped: " + broken_);
   }
+
+  // With a lesson chosen, what was chosen ahead in its place is of no use.
   if (done->lesson) {
     lessons_.clear();
     wanted_.clear();
     num_ahead_ = 0;
   }
+
   if (!done->message.empty()) keep_mark(mark_of(done->events.back().actor, done->message));
   release();
+
   if (done->done) done->done({.events = done->events, .refusal = {}});
   host_.on_applied(*this, done->events);
   advance();

@@ -85,6 +85,7 @@ std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& sessio
   std::string seal;
   for (const auto& event : log.events) seal = sealed(seal, event);
   if (seal != log.seal) refuse_change(name, "its seal is not that of its events");
+
   TeachingCache cache{session.study->atlas};
   std::vector<RoomEvent> events;
   std::uint64_t at = 0;
@@ -92,6 +93,8 @@ std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& sessio
     Room room{session.study, log.setup, cache};
     for (const auto& event : log.events) {
       at = event.seq;
+
+      // Lessons are chosen anew, and must be the same ones.
       if (event.get<happening::LessonChosen>() != nullptr) {
         const auto lesson = same_lesson(log, event, room, cache, name);
         events.push_back(room.taught(lesson, event.at_us));
@@ -105,6 +108,7 @@ std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& sessio
     if (!error.diagnostics().empty() && error.diagnostics().front().id == "E1622") throw;
     refuse_change(name, "event " + std::to_string(at) + ": " + error.what());
   }
+
   return events;
 }
 

@@ -114,6 +114,7 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
     const bool has_room = identity.role != Role::kParticipant || rooms.find(place.first) != rooms.end();
     if (identity.role == Role::kNobody || !has_room) identity = {};
     connection->identity = identity;
+
     if (identity.role == Role::kParticipant) {
       auto& contact = contacts[place];
       const auto found = connections.find(std::exchange(contact.connection, connection->id));
@@ -128,6 +129,7 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
     }
     if (identity.role != Role::kNobody) connection->is_known = true;
   }
+
   if (!connection->is_known) return connection->dismiss("bad-token", kPolicy);
   connection->socket->authenticated();
   if (former) former->dismiss("opened-elsewhere", kElsewhere);
@@ -286,6 +288,7 @@ void LiveService::State::revoke_link(const std::string& id, const Json& body, co
   auto link = text_at(body, "token");
   const auto mark = link.rfind("#t=");
   if (mark != std::string::npos) link.erase(0, mark + 3);
+
   Identity whose;
   Place place;
   {
@@ -294,6 +297,7 @@ void LiveService::State::revoke_link(const std::string& id, const Json& body, co
     place = place_of(whose);
   }
   if (whose.role == Role::kNobody) return reply(Refusal{"no-link", "There is no such link."});
+
   StoreBatch batch;
   batch.revoked.push_back(whose.hash);
   const Json what{{"role", name_of(whose.role)},
@@ -312,6 +316,7 @@ void LiveService::State::revoke_link(const std::string& id, const Json& body, co
         if (other->is_known && other->identity.hash == whose.hash) users.push_back(other);
       }
     }
+
     reply({});
     for (const auto& user : users) user->dismiss("removed", kPolicy);
   });

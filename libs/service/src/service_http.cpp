@@ -97,10 +97,12 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
     key = path.substr(kWorlds.size());
     path = "/api/world";
   }
+
   const auto route = request.method + " " + path;
   const auto known = permissions();
   if (std::none_of(known.begin(), known.end(), [&](const Permission& permission) { return permission.name == route; }))
     return error_reply(404, "not-found", "There is no such page.");
+
   Identity identity;
   {
     const std::lock_guard lock{mutex};
@@ -111,12 +113,15 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
     const int status = identity.role == Role::kNobody ? 401 : 403;
     return error_reply(status, "not-allowed", "This link does not allow that.");
   }
+
   if (route == "GET /api/health") return json_reply(200, {{"status", "ok"}, {"server", options.program}});
   if (route == "POST /api/join") return join(request);
   if (route == "GET /api/texts") return json_reply(200, language_json(*study));
   if (route == "GET /api/world") return world(key);
   if (route == "GET /api/integrity") return json_reply(200, integrity());
   if (route == "GET /api/export") return export_tables(query);
+
+  // What is left is GET /api/qr.
   const auto text = parameter(query, "text");
   const auto picture = text.size() <= kLongestQrText ? qr_svg(text) : std::nullopt;
   if (!picture) return error_reply(400, "bad-text", "A QR code needs a text of 1 to 1000 bytes.");

@@ -56,6 +56,7 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
             {"role", name_of(connection.identity.role)},
             {"server_ms", now_us() / kMillisecond},
             {"study", live_study_json(*study)}};
+
   if (is_facilitator) {
     const auto page = [&](const char* path, const std::string& token) {
       return token.empty() ? std::string{} : base_url + path + token;
@@ -65,6 +66,7 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
                      {"join", base_url + "/j?code=" + join_code},
                      {"code", join_code}};
   }
+
   view["rooms"] = Json::array();
   for (const auto& [number, picture] : pictures) {
     auto row = or_null(is_facilitator ? picture.row : picture.observer_row);
@@ -75,6 +77,8 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
       const auto person = contact == contacts.end() ? connections.end() : connections.find(contact->second.connection);
       if (person != connections.end() && person->second->round_trip)
         seat["latency_ms"] = static_cast<double>(person->second->round_trip->count()) / 1000.0;
+
+      // Who came from the waiting list still uses the link of their place there.
       auto token = is_facilitator ? tokens->known(place.first, place.second) : std::nullopt;
       if (const auto from = came_from.find(place); is_facilitator && !token && from != came_from.end()) {
         token = tokens->known(from->second.first, from->second.second);
@@ -83,11 +87,13 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
     }
     view["rooms"].push_back(std::move(row));
   }
+
   const auto selected_room = pictures.find(connection.selected);
   if (selected_room != pictures.end()) {
     auto detail = or_null(is_facilitator ? selected_room->second.detail : selected_room->second.observer_detail);
     if (!detail.is_null()) view["room"] = std::move(detail);
   }
+
   view["log"] = Json::array();
   for (const auto& entry : log) {
     Json line{{"at_ms", entry.at_us / kMillisecond}, {"actor", entry.actor}, {"what", entry.what}};

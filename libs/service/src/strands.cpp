@@ -39,16 +39,19 @@ void Strands::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, s
   while (true) {
     changed_.wait(lock, [&] { return stopping_ || !ready_.empty(); });
     if (ready_.empty()) return;
+
     const auto key = ready_.front();
     ready_.pop_front();
     auto& queue = queues_[key];
     auto job = std::move(queue.jobs.front());
     queue.jobs.pop_front();
     queue.is_running = true;
+
     lock.unlock();
     job(cache);
     job = nullptr;
     lock.lock();
+
     auto& after = queues_[key];
     after.is_running = false;
     if (after.jobs.empty()) {
@@ -57,6 +60,8 @@ void Strands::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, s
       ready_.push_back(key);
       changed_.notify_one();
     }
+
+    // A strand stands in the list at most once, so its jobs run one after the other.
     lock.unlock();
     busy_.end();
     lock.lock();

@@ -83,13 +83,16 @@ struct EventFile::State {
       const auto checksum = seal(row, key);
       room.bind(1, row.number).bind_text(2, row.setup).bind(3, row.created_us).bind_blob(4, checksum).run();
     }
+
     auto token = database.prepare("INSERT INTO token VALUES (?, ?, ?, ?, ?, ?, ?)");
     for (const auto& row : batch.tokens) {
       const auto checksum = seal(row, key);
       token.bind_blob(1, row.hash).bind_text(2, row.role).bind(3, row.room).bind(4, row.seat).bind(5, row.expires_us);
       token.bind(6, std::int64_t{row.revoked ? 1 : 0}).bind_blob(7, checksum).run();
     }
+
     for (const auto& hash : batch.revoked) revoke(hash);
+
     auto event = database.prepare("INSERT INTO event VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
     for (const auto& row : batch.events) {
       const auto checksum = seal(row, key);

@@ -107,12 +107,15 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
     room.created_us = stored.created_us;
     rooms.push_back(std::move(room));
   }
+
+  // Both lists are in the order of rooms.
   auto at = rooms.begin();
   file.for_each_event([&](const StoredEvent& event) {
     while (at != rooms.end() && at->number < event.room) ++at;
     if (at == rooms.end() || at->number != event.room) return;
     ++at->events;
     at->last_us = event.at_us;
+
     const auto is = [&](const RoomEventKind& kind) { return event.type == kind.word; };
     at->joined += is(happening::Joined::kKind) || is(happening::Seated::kKind) ? 1u : 0u;
     at->lessons += is(happening::LessonChosen::kKind) ? 1u : 0u;
@@ -120,6 +123,7 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
     at->has_started = at->has_started || is(happening::Started::kKind);
     if (is(happening::Ended::kKind)) at->ended = body_of(event).value("reason", std::string{});
   });
+
   return rooms;
 }
 

@@ -94,6 +94,8 @@ StoreBatch complete_beginnings(const Found& found, SalvageReport& report) {
   for (const auto& [number, room] : found.rooms) {
     if (number != 0) batch.rooms.push_back(room);
   }
+
+  // Of each room the events up to the first that is lost.
   Integer current = -1;
   std::uint64_t next = 1;
   std::size_t later = 0;
@@ -103,6 +105,7 @@ StoreBatch complete_beginnings(const Found& found, SalvageReport& report) {
                           std::to_string(later) +
                           " later events of this room are intact but cannot be used without it");
   };
+
   for (const auto& [place, event] : found.events) {
     if (place.first != current) {
       finish();
@@ -110,6 +113,7 @@ StoreBatch complete_beginnings(const Found& found, SalvageReport& report) {
       next = 1;
       later = 0;
     }
+
     const bool has_room = current == 0 || found.rooms.find(current) != found.rooms.end();
     if (later == 0 && place.second == next && has_room) {
       batch.events.push_back(event);
@@ -135,17 +139,20 @@ SalvageReport salvage_session(const fs::path& folder, const fs::path& target) {
     refuse_run(ErrorKind::kUsage, "E1620", target, "the folder for the recovered session is not empty",
                "name a new folder");
   }
+
   const auto facts = find_identity(folder);
   if (!facts) {
     refuse_run(ErrorKind::kMismatch, "E1619", folder,
                "the identity of the session is lost, and without it no event can be told to be intact",
                "restore session.json, or the whole folder, from a backup");
   }
+
   const auto key = store_key(facts->id, facts->identity.study);
   Found found;
   find_rooms(path, key, found);
   find_tokens(path, key, found);
   find_events(path, key, found);
+
   SalvageReport report;
   auto batch = complete_beginnings(found, report);
   for (const auto& [hash, token] : found.tokens) batch.tokens.push_back(token);
@@ -153,6 +160,7 @@ SalvageReport salvage_session(const fs::path& folder, const fs::path& target) {
   if (error) throw Error{ErrorKind::kIo, "cannot make " + target.string() + ": " + error.message()};
   auto file = EventFile::make(target, facts->identity, facts->id, facts->created_us);
   file.write({&batch, 1});
+
   report.rooms = batch.rooms.size();
   report.events = batch.events.size();
   report.links = batch.tokens.size();
