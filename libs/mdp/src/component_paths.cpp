@@ -208,6 +208,8 @@ bool ComponentPaths::order_tight(States component) {
   if (mark_.empty()) mark_.resize(mdp_.num_states());
   const std::size_t first = order_.size();
   for (const StateIndex s : component) stage_[s.value()] = Stage::kOpen;
+
+  // How many tight steps of a state lead to states that have no place yet; those without any come first.
   for (const StateIndex s : component) {
     std::uint32_t left = 0;
     for (const Choice& choice : mdp_.choices(s)) {
@@ -220,6 +222,7 @@ bool ComponentPaths::order_tight(States component) {
     mark_[s.value()] = left;
     if (left == 0) order_.push_back(number(s));
   }
+
   for (std::size_t i = first; i < order_.size(); ++i) {
     const std::uint32_t next = order_[i];
     for (const Arrival& arrival : mdp_.arrivals(StateIndex{next})) {
@@ -228,6 +231,8 @@ bool ComponentPaths::order_tight(States component) {
       if (--mark_[from] == 0) order_.push_back(number(arrival.from));
     }
   }
+
+  // A cycle of tight steps never gets a place.
   return order_.size() - first == component.size();
 }
 

@@ -81,6 +81,7 @@ void PolicyChain::append_row(const Mdp& mdp, std::uint32_t s, const Choice& choi
 bool PolicyChain::sweep(int most_sweeps, std::span<double> values) const {
   std::vector<double> x(constant_.size());
   for (std::size_t at = 0; at < order_.size(); ++at) std::copy_n(&values[order_[at] * kinds_], kinds_, &x[at * kinds_]);
+
   std::vector<double> sum(kinds_);
   bool is_still = false;
   for (int i = 0; i < most_sweeps && !is_still; ++i) {
@@ -99,8 +100,10 @@ bool PolicyChain::sweep(int most_sweeps, std::span<double> values) const {
         value = sum[k];
       }
     }
+
     is_still = largest_change <= kStill * largest;
   }
+
   for (std::size_t at = 0; at < order_.size(); ++at) std::copy_n(&x[at * kinds_], kinds_, &values[order_[at] * kinds_]);
   return is_still;
 }

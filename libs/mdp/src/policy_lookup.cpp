@@ -47,13 +47,16 @@ class PolicyLookup::Body {
     loose_.clear();
     key_.clear();
     is_kept_ = true;
+
     if (!known.has_optima()) return false;
     double square = 0.0;
     for (const double w : weights) square += w * w;
     places_.resize(std::max(places_.size(), known.num_components()));
+
     if (known.is_discounted()) return locate_discounted();
     clear_by_ = kClear * std::sqrt(square);
     if (known.gains(weights, clear_by_)) return false;
+
     for (std::size_t c = 0; c < known.num_components(); ++c) {
       if (!(known.is_alone(c) ? step(c) : enter(c))) return false;
     }
@@ -115,6 +118,8 @@ class PolicyLookup::Body {
       way.second = dot(way.first, weights_);
       best = ways_.size() == 1 ? way.second : std::max(best, way.second);
     }
+
+    // Of those that are best, the one that earns the robot most; the first of equals.
     std::optional<std::size_t> chosen;
     double earned = 0.0;
     for (std::size_t i = 0; i < ways_.size(); ++i) {
@@ -124,9 +129,12 @@ class PolicyLookup::Body {
       chosen = i;
       earned = robots;
     }
+
+    // Where another way is nearly as good, what is best here does not follow from what is kept.
     for (std::size_t i = 0; i < ways_.size() && is_kept_; ++i) {
       is_kept_ = ways_[i].second < best - clearance(std::abs(best)) || ways_[i].first == ways_[*chosen].first;
     }
+
     places_[c] = {nullptr, ways_[*chosen].first};
     key_.push_back(static_cast<std::uint32_t>(*chosen));
     return true;
@@ -228,6 +236,7 @@ class PolicyLookup::Body {
     const StateIndex s = known_->members(c).front();
     const std::size_t first = mdp.first_choice(s), last = first + mdp.choices(s).size();
     const auto negative_counts = [&](std::size_t i) { return less(kNothing.data(), i, expected_at(steps.next[i])); };
+
     std::size_t chosen = first;
     double least = 0.0;
     for (std::size_t i = first; i < last; ++i) {
@@ -236,6 +245,7 @@ class PolicyLookup::Body {
       least = cost;
       chosen = i;
     }
+
     auto& own = places_[c].alone;
     own = negative_counts(chosen);
     double largest = 1.0, reach = 0.0;
@@ -244,6 +254,7 @@ class PolicyLookup::Body {
       largest = std::max(largest, std::abs(own[k]));
       reach += std::abs(own[k] * weights_[k]);
     }
+
     const double clear_by = clearance(reach);
     std::size_t first_equal = chosen;
     for (std::size_t i = first; i < last; ++i) {
@@ -254,6 +265,7 @@ class PolicyLookup::Body {
         return false;
       }
     }
+
     if (first_equal != chosen) {
       own = negative_counts(first_equal);
       for (double& x : own) x = -x;
@@ -293,14 +305,17 @@ class PolicyLookup::Body {
       expected_.resize(std::max(expected_.size(), (mdp.num_states() + mdp.num_terminals()) * d));
       std::fill_n(expected_.begin() + static_cast<std::ptrdiff_t>(mdp.num_states() * d), mdp.num_terminals() * d, 0.0);
     }
+
     for (const std::uint32_t exit : known_->exits(c)) {
       const double* const counts = expected_at(exit);
       std::copy_n(counts, d, &expected_[exit * d]);
       values_->set_value(exit, dot_of(counts, weights_));
     }
+
     values_->solve(known_->by_distance(c));
     values_->take_first_tight(known_->by_distance(c));
     values_->sum_up(known_->by_distance(c), detail::feature_rows(mdp), d, expected_);
+
     auto part = std::make_unique<Part>();
     std::vector<double> sum(d, 0.0);
     if (!bound_discounted(c, *part, sum)) return nullptr;
@@ -316,6 +331,7 @@ class PolicyLookup::Body {
     const Mdp& mdp = known_->mdp();
     const auto& steps = known_->steps();
     const std::size_t d = weights_.size();
+
     part.reach.assign(d, 0.0);
     std::size_t num_choices = 0;
     for (const StateIndex s : known_->members(c)) {
@@ -325,6 +341,7 @@ class PolicyLookup::Body {
         sum[k] += expected_[s.value() * d + k];
       }
     }
+
     const double largest = std::max(1.0, *std::max_element(part.reach.begin(), part.reach.end()));
     NormalSet normals{d, kSameNormal * largest, num_choices};
     for (const StateIndex s : known_->members(c)) {
@@ -334,6 +351,7 @@ class PolicyLookup::Body {
         if (differs(loss, largest)) normals.insert(loss.data());
       }
     }
+
     part.normals = normals.by_margin(weights_);
     return holds(part);
   }

@@ -164,13 +164,17 @@ class PolicyPartition::Body {
     by_distance_.resize(components_.size());
     component_of_.assign(mdp_.num_states(), 0);
     kept_place_.assign(mdp_.num_states(), kNone);
+
+    // The states whose counts somebody asks for: on candidates' paths, and where another component is left to.
     std::vector<bool> matters(mdp_.num_states(), false);
     for (const StateIndex s : states_) matters[s.value()] = true;
+
     for (std::size_t c = 0; c < components_.size(); ++c) {
       for (std::size_t i = starts[c]; i < starts[c + 1]; ++i) {
         component_of_[by_component[i].value()] = static_cast<std::uint32_t>(c);
       }
     }
+
     for (std::size_t c = 0; c < components_.size(); ++c) {
       auto& component = components_[c];
       component.is_alone = starts[c + 1] - starts[c] == 1;
@@ -185,6 +189,7 @@ class PolicyPartition::Body {
       std::sort(component.exits.begin(), component.exits.end());
       component.exits.erase(std::unique(component.exits.begin(), component.exits.end()), component.exits.end());
     }
+
     for (std::size_t c = 0; c < components_.size(); ++c) {
       for (const StateIndex s : members(c)) {
         if (!matters[s.value()]) continue;

@@ -60,6 +60,7 @@ Estimable<NormalityCheck> check_normality(std::span<const double> residuals) {
   require_finite(residuals, "check_normality");
   using Result = Estimable<NormalityCheck>;
   if (residuals.size() < 3) return Result::impossible("fewer than three residuals");
+
   const auto standardized = standardize(residuals);
   const auto n = static_cast<double>(residuals.size());
   double second = 0.0;
@@ -73,6 +74,7 @@ Estimable<NormalityCheck> check_normality(std::span<const double> residuals) {
   }
   if (second * n <= negligible_sum_of_squares(standardized.rounding, residuals.size()))
     return Result::impossible("all residuals are equal");
+
   NormalityCheck check;
   check.skewness = third / (second * std::sqrt(second));
   check.excess_kurtosis = fourth / (second * second) - 3.0;

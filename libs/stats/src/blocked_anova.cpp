@@ -37,6 +37,7 @@ Blocks gather_blocks(std::span<const double> values, const Factor& within, const
                 std::vector(block.levels.size(), unknown),
                 {}};
   std::vector<std::vector<bool>> seen(block.levels.size(), std::vector<bool>(num_levels, false));
+
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto b = block.codes[i];
     const auto level = within.codes[i];
@@ -53,6 +54,7 @@ Blocks gather_blocks(std::span<const double> values, const Factor& within, const
     seen[b][level] = true;
     blocks.differences[b][level] = values[i];
   }
+
   for (std::size_t b = 0; b < seen.size(); ++b) {
     const auto missing = std::find(seen[b].begin(), seen[b].end(), false);
     if (missing != seen[b].end()) {

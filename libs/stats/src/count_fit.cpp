@@ -189,9 +189,11 @@ CountData count_data(std::span<const double> counts, const std::vector<bool>& ob
   CountData data;
   data.columns = observed_columns(design);
   data.cells.resize(static_cast<std::size_t>(data.columns.rows()));
+
   std::vector<std::size_t> row_of(design.counts.size(), 0);
   std::size_t rows = 0;
   for (std::size_t c = 0; c < design.counts.size(); ++c) row_of[c] = design.counts[c] > 0 ? rows++ : 0;
+
   std::vector<std::map<double, double>> bounds(rows);
   std::map<double, double> times;
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -205,12 +207,14 @@ CountData count_data(std::span<const double> counts, const std::vector<bool>& ob
       bounds[row][counts[i]] += 1.0;
     }
   }
+
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (!observed.empty() && !observed[i]) continue;
     auto& cell = data.cells[row_of[design.cell_of[i]]];
     const double deviation = counts[i] - cell.sum / cell.observed;
     cell.squares += deviation * deviation;
   }
+
   for (std::size_t row = 0; row < rows; ++row) data.cells[row].censored = listed(bounds[row]);
   data.counts = listed(times);
   for (const auto& [count, number] : data.counts) data.log_factorials += number * boost::math::lgamma(count + 1.0);
@@ -284,14 +288,18 @@ MatrixXd covariance_of(const CountData& data, const CountFit& fit) {
       weights(c) *= data.cells[static_cast<std::size_t>(c)].observed / (1.0 + weights(c) / fit.theta);
     return inverse(data.columns.transpose() * weights.asDiagonal() * data.columns);
   }
+
   const auto p = fit.coefficients.size();
   const auto state = state_at(data, fit.coefficients, fit.theta);
   if (std::isinf(fit.theta)) return inverse(state.information);
+
+  // By differences, in the logarithm of theta.
   constexpr double kStep = 1e-2;
   const auto difference = [](auto function) {
     return ((8.0 * (function(kStep) - function(-kStep)) - (function(2.0 * kStep) - function(-2.0 * kStep))) /
             (12.0 * kStep));
   };
+
   MatrixXd information(p + 1, p + 1);
   information.topLeftCorner(p, p) = state.information;
   for (Index j = 0; j < p; ++j) {

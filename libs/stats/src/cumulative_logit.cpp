@@ -119,6 +119,8 @@ std::optional<OrdinalFit> fit_ordinal(const OrdinalData& data) {
   constexpr int kMostSteps = 200;
   constexpr double kSmallestGain = 1e-16;
   const auto num_thresholds = data.counts.cols() - 1;
+
+  // From the thresholds without effects, Newton's steps, halved until they gain.
   VectorXd parameters = VectorXd::Zero(num_thresholds + data.columns.cols());
   const VectorXd totals = data.counts.colwise().sum();
   double below = 0.0;
@@ -126,12 +128,14 @@ std::optional<OrdinalFit> fit_ordinal(const OrdinalData& data) {
     below += totals(j);
     parameters(j) = std::log(below / (data.observations - below));
   }
+
   auto at = differentiate(data, parameters);
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::LDLT<MatrixXd> decomposed{at.information};
     const VectorXd change = decomposed.solve(at.score);
     const double gain = change.dot(at.score);
     if (!std::isfinite(gain) || change.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;
+
     const double rounding = 1e-13 * std::abs(at.log_likelihood);
     double part = 1.0;
     auto next = differentiate(data, parameters + change);
@@ -142,6 +146,7 @@ std::optional<OrdinalFit> fit_ordinal(const OrdinalData& data) {
     parameters += part * change;
     at = std::move(next);
     if (std::abs(gain) > kSmallestGain * (1.0 + std::abs(at.log_likelihood))) continue;
+
     OrdinalFit fit{parameters, {}, at.log_likelihood};
     fit.covariance = at.information.ldlt().solve(MatrixXd::Identity(parameters.size(), parameters.size()));
     const double largest = fit.covariance.diagonal().maxCoeff();

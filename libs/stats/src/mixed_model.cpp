@@ -207,6 +207,7 @@ Interval profile_interval(MixedDeviance& data, const Optimum& optimum, double co
   const auto root = [&](double inside, double outside) {
     return std::exp(detail::root_between(std::min(inside, outside), std::max(inside, outside), 32, excess));
   };
+
   const double tau = optimum.tau(0);
   Interval interval{tau / (1.0 + tau), 0.0, 1.0};
   const double middle = std::log(std::max(tau, kZeroRatio));
@@ -215,6 +216,8 @@ Interval profile_interval(MixedDeviance& data, const Optimum& optimum, double co
     const double low = root(middle, low_end);
     interval.low = low / (1.0 + low);
   }
+
+  // Outward until the deviance is too large.
   double inside = middle, outside = middle + 1.0;
   while (outside < std::log(kLargestRatio)) {
     if (excess(outside) <= 0.0) {
@@ -376,6 +379,7 @@ std::vector<TermTest> term_tests(const FixedEffects& model, SumsOfSquares type) 
   const auto& design = model.design;
   const auto p = static_cast<Index>(design.columns.size());
   const auto kept = static_cast<Index>(design.kept.size());
+
   VectorXd coefficients(kept);
   MatrixXd covariance(kept, kept);
   for (Index i = 0; i < kept; ++i) {
@@ -386,11 +390,13 @@ std::vector<TermTest> term_tests(const FixedEffects& model, SumsOfSquares type) 
       covariance(i, j) = model.covariance[static_cast<std::size_t>(row * p + column)];
     }
   }
+
   const auto df = [&](const VectorXd& combination) {
     std::vector<double> weights(static_cast<std::size_t>(p), 0.0);
     for (Index i = 0; i < kept; ++i) weights[design.kept[static_cast<std::size_t>(i)]] = combination(i);
     return model.df(weights);
   };
+
   std::vector<TermTest> tests;
   for (std::size_t t = 0; t < design.terms.size(); ++t) {
     const auto name = detail::term_name(design, t);
