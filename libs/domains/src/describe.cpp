@@ -56,12 +56,14 @@ std::string Domain::state_name(MdpIndex m, StateIndex s) const {
     }
     throw std::invalid_argument{"Domain::state_name: there is no state " + std::to_string(s.value())};
   }
+
   const GridMap map{data_->grid()};
   const GridState now = map.state(m, s);
   const std::vector<std::size_t> items = map.items_in(m);
   const auto at = [&](Cell cell) {
     return cell_text(data_->grid().family_map, *data_->grid().family_map.index_of(cell));
   };
+
   std::string text = now.exited ? "gone from " + at(now.robot) : "robot at " + at(now.robot);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string& item = data_->grid().item_names[items[i]];

@@ -56,6 +56,8 @@ std::optional<IntegerVector> exact_direction(const std::vector<double>& numbers)
     decimals.push_back(shortest_decimal(number));
     if (decimals.back().digits != 0) lowest = std::min(lowest, decimals.back().exponent);
   }
+
+  // All as multiples of the smallest power of ten that one of them ends in.
   std::vector<std::int64_t> entries;
   std::int64_t divisor = 0;
   for (const Decimal& decimal : decimals) {
@@ -69,6 +71,7 @@ std::optional<IntegerVector> exact_direction(const std::vector<double>& numbers)
     entries.push_back(static_cast<std::int64_t>(scaled));
     divisor = std::gcd(divisor, entries.back());
   }
+
   for (std::int64_t& entry : entries) {
     if (divisor != 0) entry /= divisor;
     if (std::abs(entry) >= std::int64_t{1} << 31) return std::nullopt;

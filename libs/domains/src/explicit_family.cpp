@@ -228,10 +228,12 @@ class MemberBuilder {
     for (std::uint32_t s = 0; s < n; ++s) {
       if (live_[s] && (state(s).start || state(s).initial)) queue.push_back(s);
     }
+
     const bool has_roots =
         std::any_of(raw_.states.begin(), raw_.states.end(), [](const RawState& s) { return s.start || s.initial; });
     kept_.assign(n, !has_roots);
     for (const std::uint32_t s : queue) kept_[s] = true;
+
     while (!queue.empty()) {
       const std::uint32_t s = queue.back();
       queue.pop_back();
@@ -245,6 +247,7 @@ class MemberBuilder {
         }
       }
     }
+
     std::size_t count = 0;
     const RawState* first = nullptr;
     for (std::size_t s = 0; s < n; ++s) {
@@ -289,9 +292,11 @@ class MemberBuilder {
         order.push_back(s);
       }
     }
+
     const auto num_states = static_cast<std::size_t>(
         std::count_if(order.begin(), order.end(), [&](std::uint32_t s) { return !state(s).terminal; }));
     MdpBuilder builder{num_states, order.size() - num_states, model_.actions.size(), num_features_, discount_};
+
     std::vector<MdpBuilder::Transition> outcomes;
     for (std::size_t i = 0; i < num_states; ++i) {
       for (std::uint32_t c = first_choice_[order[i]]; c < first_choice_[order[i] + 1]; ++c) {
@@ -304,6 +309,7 @@ class MemberBuilder {
         builder.add_choice(StateIndex{i}, ActionIndex{raw_.transitions[choices_[c].first].action}, outcomes);
       }
     }
+
     ExplicitMember result{raw_.name, std::move(builder).build(), {}, StateIndex{0}, {}, {}, {}};
     describe(result, order, num_states);
     return result;

@@ -22,6 +22,7 @@ std::vector<ExportedChoice> ExportView::choices(std::size_t s) const {
   if (is_terminal(s)) return result;
   const std::vector<double>& weights = domain_.weights().raw;
   for (const Choice& choice : mdp_.choices(StateIndex{s})) {
+    // Outcomes with the same next state are one; its features are those to be expected.
     std::map<std::size_t, ExportedOutcome> merged;
     for (const Outcome& outcome : mdp_.outcomes(choice)) {
       ExportedOutcome& one = merged[outcome.next.value()];
@@ -34,6 +35,7 @@ std::vector<ExportedChoice> ExportView::choices(std::size_t s) const {
       one.next = outcome.next.value();
       one.probability += outcome.probability;
     }
+
     ExportedChoice exported{choice.action.value(), {}};
     for (auto& [next, one] : merged) {
       for (std::size_t k = 0; k < weights.size(); ++k) one.reward += weights[k] * one.features[k];

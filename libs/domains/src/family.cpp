@@ -16,6 +16,8 @@ constexpr std::size_t kMaxCellsPerState = 32;
 // The non-terminal states from which some terminal state can be reached.
 std::vector<bool> find_live_states(const Exploration& found) {
   const std::size_t n = found.states.size();
+
+  // The edges into each state.
   std::vector<std::uint32_t> first(n + 1, 0);
   for (const auto& edge : found.edges) ++first[edge.to + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
@@ -24,6 +26,8 @@ std::vector<bool> find_live_states(const Exploration& found) {
   for (std::uint32_t s = 0; s < n; ++s) {
     for (std::uint32_t e = found.first_edge[s]; e < found.first_edge[s + 1]; ++e) from[slot[found.edges[e].to]++] = s;
   }
+
+  // From there one can come to an end.
   std::vector<bool> live(n, false);
   std::vector<std::uint32_t> queue;
   for (std::uint32_t s = 0; s < n; ++s) {
@@ -124,12 +128,14 @@ class FamilyBuilder {
       number[s] = static_cast<std::uint32_t>(states.size());
       states.push_back(found.states[s]);
     }
+
     const std::size_t num_live = states.size();
     for (std::size_t s = 0; s < n; ++s) {
       if (!found.terminal[s]) continue;
       number[s] = static_cast<std::uint32_t>(states.size());
       states.push_back(found.states[s]);
     }
+
     MdpBuilder builder{num_live, states.size() - num_live, dynamics_.actions.size(), dynamics_.features.size(),
                        dynamics_.discount};
     MdpBuilder::Transition transition;

@@ -105,6 +105,7 @@ class DrawingReader {
     read_thing(reader, thing);
     if (reader.has("carried")) thing.carried = variable(reader, "carried");
     reader.finish();
+
     const auto& symbols = plan_.family_map.symbols;
     const auto at = std::ranges::find_if(
         symbols, [&](const Symbol& symbol) { return entry.key.size() == 1 && symbol.glyph == entry.key.front(); });
@@ -118,6 +119,7 @@ class DrawingReader {
                     "only those are placed by variables; draw everything else in the rows of [map]");
       return;
     }
+
     plan_.things.push_back(thing);
     plan_.symbols.push_back(static_cast<std::uint8_t>(at - symbols.begin()));
     plan_.names.push_back(at->content.item.empty() ? "destination of " + at->content.destination : at->content.item);
@@ -419,6 +421,7 @@ ModelDrawing draw_model(DrawingPlan&& plan, const ExplicitFamily& family, TomlRe
   ModelDrawing drawing;
   drawing.things = plan.names;
   drawing.symbol_of_thing = plan.symbols;
+
   for (const ExplicitMember& member : family.members) {
     std::uint64_t mask = 0;
     for (std::size_t group = 0; group < plan.family_map.groups.size(); ++group) {
@@ -427,6 +430,7 @@ ModelDrawing draw_model(DrawingPlan&& plan, const ExplicitFamily& family, TomlRe
     plan.family_map.masks.push_back(mask);
     drawing.members.push_back(MemberDrawer{plan, family.variables.size(), member}.draw());
   }
+
   for (std::size_t m = 0; m < drawing.members.size(); ++m) {
     const auto twins = find_twins(family.members[m].mdp, drawing.members[m], drawing.look_size());
     if (!twins) continue;

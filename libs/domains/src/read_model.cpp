@@ -282,6 +282,7 @@ class ModelReader {
         }
       }
     }
+
     if (!declare_features(values, feature_of)) return;
     FeatureRows rows;
     for (RawMdp& mdp : model.mdps) {
@@ -306,6 +307,7 @@ class ModelReader {
           values.empty() ? "give at least one transition a reward" : "write feature vectors in place of rewards");
       return false;
     }
+
     auto& features = reading_.dynamics.features;
     if (features.empty()) {
       std::sort(values.begin(), values.end());
@@ -318,6 +320,7 @@ class ModelReader {
       }
       return true;
     }
+
     std::vector<double> declared;
     for (std::size_t k = 0; k < features.size(); ++k) {
       const double reward = rewards_[k].value_or(0.0);
@@ -334,6 +337,7 @@ class ModelReader {
                     "the rewards of the model are " + list_of(values));
       return false;
     }
+
     for (const double value : values) {
       if (std::find(declared.begin(), declared.end(), value) != declared.end()) continue;
       report_.error("E0262", features.back().place, "no feature stands for " + reward_name(value),

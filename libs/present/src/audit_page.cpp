@@ -164,14 +164,17 @@ class Page {
       const auto &x = first_need(a->audit), &y = first_need(b->audit);
       return std::pair{urgency(x), x.level.mean} < std::pair{urgency(y), y.level.mean};
     });
+
     const bool has_groups =
         order.front()->group != order.back()->group ||
         std::any_of(order.begin(), order.end(), [&](const auto* one) { return one->group != order.front()->group; });
+
     out_ += tag("h2", "Who needs what first");
     begin_table("Who needs what first");
     out_ += "<thead><tr><th>Person</th>";
     for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) out_ += fmt::format("<th>{}</th>", k + 1);
     out_ += "<th>First</th></tr></thead>\n<tbody>\n";
+
     for (const auto* person : order) {
       const auto name = title_of(*person) + (has_groups ? ", " + person->group : "");
       out_ += fmt::format("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>", anchor(*person), svg_escaped(name));
@@ -181,6 +184,7 @@ class Page {
       out_ += fmt::format("<td>{}</td></tr>\n", svg_escaped(need_in_words(first_need(person->audit))));
     }
     out_ += "</tbody></table></div>\n";
+
     std::string components;
     for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) {
       components += fmt::format("{}{}: {}", k == 0 ? "" : "; ", k + 1, component_in_words(atlas_, k));

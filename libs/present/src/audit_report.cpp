@@ -235,6 +235,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                           {"misconception", counts.misconception},
                           {"not_taught", counts.not_taught}});
   }
+
   Json shared = Json::array();
   for (const auto& misconception : shared_misconceptions(report)) {
     shared.push_back({{"component", misconception.component + 1},
@@ -242,6 +243,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"thinks", misconception.thinks},
                       {"people", misconception.people}});
   }
+
   Json people = Json::array();
   for (const auto& person : report.people) {
     Json audits = Json::array();
@@ -259,6 +261,8 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"guessing", person.audit.guessing},
                       {"components", std::move(audits)}});
   }
+
+  // People of a group stand together.
   Json groups = Json::array();
   std::string last;
   for (const auto& person : report.people) {
@@ -268,6 +272,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"agreement", agreement_json(agreement_of(report, last))},
                       {"unexplained", num_unexplained(report, last)}});
   }
+
   const auto& options = report.options;
   return {{"schema", "kith.audit/1"},
           {"program", program},

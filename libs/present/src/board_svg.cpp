@@ -304,6 +304,8 @@ void BoardSvg::action(Svg& svg, const Cell& cell, const std::string& name) const
   static constexpr std::array<std::pair<std::string_view, int>, 4> kAngles{
       {{"right", 0}, {"down", 90}, {"left", 180}, {"up", 270}}};
   const auto move = std::find_if(kAngles.begin(), kAngles.end(), [&](const auto& one) { return one.first == name; });
+
+  // What is no move is written out.
   if (move == kAngles.end()) {
     svg.add("rect", {{"x", svg_number(at.x - 19)},
                      {"y", svg_number(at.y + 7)},
@@ -319,6 +321,7 @@ void BoardSvg::action(Svg& svg, const Cell& cell, const std::string& name) const
               {"fill", detail::board_color("own")}});
     return;
   }
+
   svg.add("path",
           {{"d", "M-12 0H8M2 -6L9 0L2 6"},
            {"transform", fmt::format("translate({} {}) rotate({})", svg_number(at.x), svg_number(at.y), move->second)},

@@ -77,17 +77,20 @@ Json inspection_json(const Atlas& atlas, const InspectionContent& content) {
   const auto& domain = atlas.domain();
   const auto d = domain.num_features();
   auto document = inspection_json(domain);
+
   document["bec"] = {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)},
                      {"area_sr", atlas.policy_bec_area_sr()},
                      {"area_error", atlas.policy_bec_area().standard_error},
                      {"regret_left", atlas.regret_left() ? Json(*atlas.regret_left()) : Json{}}};
   document["knowledge_components"] = components_to_json(atlas);
   document["mask_counters"] = atlas.mask_counters();
+
   if (const auto* tables = atlas.find_tables()) {
     const auto& coverage = tables->coverage();
     document["coverage"] = {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}};
     document["policy_cells"] = tables->cells().size();
   }
+
   if (content.demos) {
     Json demos = Json::array();
     for (std::size_t i = 0; i < atlas.num_states(); ++i) {

@@ -54,11 +54,13 @@ class Sheet {
     Svg svg;
     const auto used = std::min(columns_, panels_.size());
     const double width = std::max(kGap + static_cast<double>(used) * (width_ + kGap), 420.0);
+
     double y = 26.0;
     for (const auto& line : lines_of(heading_, width - 2 * kGap, 1.1 * kHeadingSize)) {
       svg.text(kGap, y + 8, line, {{"font-size", svg_number(kHeadingSize)}, {"font-weight", "bold"}});
       y += 22.0;
     }
+
     y += 10.0;
     for (std::size_t first = 0; first < panels_.size(); first += columns_) {
       std::size_t most = 0;
@@ -73,6 +75,7 @@ class Sheet {
       }
       y += boards_.height() + kCaption * static_cast<double>(most) + kGap;
     }
+
     y += boards_.legend(svg, kGap - 6, y, width - 2 * kGap);
     return svg.file(width, y + 10.0, heading_);
   }
@@ -167,6 +170,7 @@ SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& b
   const auto demo = atlas.index({m, domain.initial_state(m)});
   const auto start = map.state(m, domain.initial_state(m));
   const auto& robot = atlas.feature_counts(demo);
+
   Sheet sheet{boards,
               fmt::format("What people could expect from the start of {} of {}", world_text(domain, m), domain.id())};
   const auto add = [&](const Trajectory& path, const std::string& text, bool is_own) {
@@ -174,6 +178,7 @@ SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& b
     board.add(0, 0, boards.path(m, path, is_own ? "#0b5cad" : "#b8480a", !is_own));
     sheet.add(std::move(board), path_caption(domain, m, text, path));
   };
+
   add(atlas.trajectory(demo), "the robot's own: " + counts_text(domain, robot), true);
   Behaviours behaviours{atlas};
   std::size_t shown = 0;

@@ -64,6 +64,8 @@ std::string legend(const Domain& domain, std::size_t indent) {
   if (!map) return "";
   const auto symbols = map->legend();
   const std::string blank(indent, ' ');
+
+  // The last world has everything that is optional, the first nothing.
   std::vector<std::string> entries;
   for (const std::size_t number : {domain.num_mdps() - 1, std::size_t{0}}) {
     const MdpIndex m{number};
@@ -77,6 +79,7 @@ std::string legend(const Domain& domain, std::size_t indent) {
       if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
     });
   }
+
   for (const auto& symbol : symbols) {
     if (!map->is_picture()) break;
     const auto& item = symbol.item.empty() ? "destination of " + symbol.content.destination_of : symbol.item;
@@ -85,6 +88,7 @@ std::string legend(const Domain& domain, std::size_t indent) {
       entries.push_back(fmt::format("{} {}", symbol.symbol, item));
     }
   }
+
   std::string text, line;
   for (const auto& entry : entries) {
     if (!line.empty() && indent + line.size() + 3 + entry.size() > kTextWidth) {

@@ -55,6 +55,7 @@ class MoveTable {
       table["items"] = std::move(items);
       table["stations"] = std::move(stations);
     }
+
     Json frames = Json::array(), next = Json::array(), end = Json::array(), counts = Json::array();
     for (StateIndex s{0}; s.value() < num_states_; ++s) {
       frames.push_back(frame(s));
@@ -62,6 +63,7 @@ class MoveTable {
       counts.push_back(kinds_of(s));
       end.push_back(mdp_.is_terminal(s));
     }
+
     table["frames"] = std::move(frames);
     table["next"] = std::move(next);
     table["end"] = std::move(end);
@@ -111,12 +113,15 @@ class MoveTable {
         }
       }
     }
+
     Json list = Json::array();
     for (std::size_t a = 0; a < mdp_.num_actions(); ++a) {
       const auto& name = domain_.action_names()[a];
       auto label = action_infinitive(name);
       if (label == "do '" + name + "'") label = name;
       Json action{{"name", name}, {"label", label}, {"dx", nullptr}, {"dy", nullptr}};
+
+      // Where the name says a direction and the robot can go there, that is meant; else what it usually does.
       const auto usual = std::max_element(shifts[a].begin(), shifts[a].end(),
                                           [](const auto& x, const auto& y) { return x.second < y.second; });
       const auto meant = direction_called(name);
@@ -127,6 +132,7 @@ class MoveTable {
         action["dx"] = usual->first.first;
         action["dy"] = usual->first.second;
       }
+
       list.push_back(std::move(action));
     }
     return list;

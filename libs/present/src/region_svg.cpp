@@ -66,6 +66,8 @@ class Sphere {
     const auto inside = in_space(visible.interior_direction());
     const Eigen::Vector3d a = inside.unitOrthogonal();
     const Eigen::Vector3d b = inside.cross(a);
+
+    // The border in many directions from a point inside, and exactly at the corners.
     std::vector<double> angles;
     constexpr int kSteps = 720;
     for (int i = 0; i < kSteps; ++i) angles.push_back(2.0 * std::numbers::pi * i / kSteps - std::numbers::pi);
@@ -74,6 +76,7 @@ class Sphere {
       angles.push_back(std::atan2(b.dot(corner), a.dot(corner)));
     }
     std::sort(angles.begin(), angles.end());
+
     std::string path;
     for (const double angle : angles) {
       const Eigen::Vector3d toward = std::cos(angle) * a + std::sin(angle) * b;
@@ -139,6 +142,7 @@ SizedSvg on_sphere(const RegionPicture& picture) {
   SizedSvg result;
   const double middle = kSpace + kRadius;
   result.svg.add(middle, middle, Sphere{picture, kRadius}.drawn());
+
   const double left = 2.0 * middle + 10.0;
   double y = 60.0;
   const auto line = [&](const std::string& text, SvgAttributes attributes) {
@@ -147,6 +151,7 @@ SizedSvg on_sphere(const RegionPicture& picture) {
   };
   line("Reward weights of length 1, seen from the robot's", {{"font-weight", "bold"}});
   y += 6.0;
+
   const auto sample = [&](const char* color, const std::string& text) {
     result.svg.add(
         "rect",
@@ -154,10 +159,12 @@ SizedSvg on_sphere(const RegionPicture& picture) {
     result.svg.text(left + 22, y, text);
     y += 21.0;
   };
+
   sample(kPale, fmt::format("known beforehand: {:.4f} sr", picture.prior.solid_angle()));
   sample(kDark, fmt::format("all that make the robot's policy: {:.4f} sr", picture.region.solid_angle()));
   sample(kRobot, "the robot's own");
   y += 8.0;
+
   for (std::size_t i = 0; i < picture.captions.size(); ++i) {
     constexpr std::size_t kCharacters = 56;
     std::string rest = wrapped(fmt::format("{}  {}", i + 1, picture.captions[i]), kCharacters, "    ");
