@@ -30,11 +30,13 @@ std::string world_text(const FamilyMap& family_map, std::size_t mdp) {
         names.push_back(name);
         lists.emplace_back();
       }
+
       if (!family_map.is_on(group, mdp)) continue;
       if (!lists[at].empty()) lists[at] += ',';
       lists[at] += cell_text(family_map, thing.cell);
     }
   }
+
   std::string text;
   if (!family_map.world_names.empty() && !family_map.world_names[mdp].empty())
     text = family_map.world_names[mdp] + ": ";

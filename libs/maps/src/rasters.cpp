@@ -83,6 +83,7 @@ class RastersReader {
                                       {"distance_to", "most", kLargestReach, Raster::Kind::kDistance},
                                       {"seen_from", "within", kLargestSight, Raster::Kind::kSeen},
                                       {"image", "levels", kMostLevels, Raster::Kind::kImage}};
+
     const Form* found = nullptr;
     int number = 0;
     for (const Form& form : kForms) {
@@ -98,6 +99,7 @@ class RastersReader {
       for (const char* key : {"within", "most", "levels"}) reader.know(key);
       return;
     }
+
     raster.kind = found->kind;
     const bool is_image = raster.kind == Raster::Kind::kImage;
     const auto reach = reader.integer(found->reach, is_image ? Presence::kOptional : Presence::kRequired,

@@ -64,6 +64,7 @@ class LegendReader {
   void read_long(const TomlTable& table, const TomlEntry& entry, Symbol& symbol) {
     TomlReader reader{table, entry.value.place(), std::string{"symbol '"} + symbol.glyph + "'", report_};
     SymbolContent& content = symbol.content;
+
     content.wall = reader.boolean("wall", Presence::kOptional).value_or(false);
     content.start = reader.boolean("start", Presence::kOptional).value_or(false);
     content.terrain = name(reader, "terrain");
@@ -71,11 +72,13 @@ class LegendReader {
     content.item = name(reader, "item");
     content.destination = name(reader, "destination");
     content.carried = reader.boolean("carried", Presence::kOptional).value_or(false);
+
     if (content.carried && content.item.empty()) {
       report_.error("E0272", table.find("carried")->place(), "there is no item on the symbol that could be carried",
                     "write it beside item = \"NAME\"");
       content.carried = false;
     }
+
     if (const auto [set, word] = flag_or_name(reader, "goal"); set) {
       content.goal = true;
       content.goal_name = word;
@@ -84,6 +87,7 @@ class LegendReader {
       symbol.toggles_each_cell = word.empty();
       symbol.toggle = word;
     }
+
     reader.finish();
     check(symbol);
   }

@@ -175,6 +175,7 @@ class OccupancyReader {
     auto table = YamlTableReader{yaml_, report_}.read();
     if (!table) return std::nullopt;
     table_ = *std::move(table);
+
     const std::size_t errors_before = report_.num_errors();
     const auto image_name = scalar("image");
     check_resolution();
@@ -188,8 +189,10 @@ class OccupancyReader {
     check_mode();
     check_keys();
     if (report_.num_errors() > errors_before) return std::nullopt;
+
     const auto image = read_image(*image_name);
     if (!image) return std::nullopt;
+
     OccupancyGrid grid{image->width, image->height, {}};
     grid.pixels.reserve(image->grey.size());
     for (const std::uint8_t grey : image->grey) {

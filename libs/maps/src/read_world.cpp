@@ -100,6 +100,7 @@ class MapReader {
   void check_shared(const PaintedThing& painted) {
     const SymbolContent& content = family_map_.symbols[painted.thing.symbol].content;
     const std::vector<MapThing> things = family_map_.things_on(painted.thing.cell);
+
     const auto is_start = [&](const MapThing& thing) { return family_map_.symbols[thing.symbol].content.start; };
     const auto is_wall = [&](const MapThing& thing) { return family_map_.symbols[thing.symbol].content.wall; };
     const auto stands_always = [&](const MapThing& thing) { return is_wall(thing) && thing.group < 0; };
@@ -107,6 +108,7 @@ class MapReader {
       report_.error("E0209", painted.place, "the robot cannot start on a wall");
       return;
     }
+
     const bool is_thing =
         !content.station.empty() || !content.item.empty() || content.goal || !content.destination.empty();
     const bool in_wall = std::ranges::any_of(things, stands_always);
@@ -116,6 +118,7 @@ class MapReader {
                         cell_text(family_map_, painted.thing.cell) + " is inside a wall",
                     "a wall that is always there cannot be entered; paint it on a free cell");
     }
+
     for (const MapThing& thing : things) {
       const std::string& other = family_map_.symbols[thing.symbol].content.destination;
       if (content.destination.empty() || other.empty() || other == content.destination) continue;

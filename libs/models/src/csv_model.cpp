@@ -58,6 +58,7 @@ class CsvModelReader {
   std::optional<std::size_t> mdp_number(const std::string& name, const ModelPlace& place) {
     const auto at = numbers_.find(name);
     if (at != numbers_.end()) return at->second;
+
     if (model_.mdps.size() > kMaxModelMdps) {
       report_.error("E0257", place, "there are more than " + std::to_string(kMaxModelMdps) + " MDPs",
                     "split the model into several domains");
@@ -69,15 +70,19 @@ class CsvModelReader {
                     "give each MDP its own states: a column mdp in " + states_.name);
       return std::nullopt;
     }
+
     numbers_.emplace(name, model_.mdps.size());
     RawMdp mdp;
     mdp.name = name;
     mdp.file = &transitions_;
     mdp.place = place;
+
+    // States without a column mdp are those of every MDP.
     if (transitions_by_mdp_ && !states_by_mdp_ && !model_.mdps.empty()) {
       mdp.states = model_.mdps.front().states;
       mdp.variables = model_.mdps.front().variables;
     }
+
     model_.mdps.push_back(std::move(mdp));
     keys_.emplace_back();
     return model_.mdps.size() - 1;
@@ -88,18 +93,22 @@ class CsvModelReader {
     if (states_by_mdp_) columns.push_back(column("mdp", ColumnType::kText, true));
     columns.push_back(column("state", ColumnType::kText, true));
     columns.push_back(column("terminal", ColumnType::kBoolean, true));
+
     const std::size_t first_optional = columns.size();
     for (const std::string_view name : {"name", "start", "initial"}) {
       if (contains(header, name)) {
         columns.push_back(column(name, name == "name" ? ColumnType::kText : ColumnType::kBoolean, false));
       }
     }
+
+    // All other columns are variables.
     const std::size_t first_variable = columns.size();
     for (const Column& other : header) {
       if (std::find(kStateColumns.begin(), kStateColumns.end(), other.name) != kStateColumns.end()) continue;
       columns.push_back(column(other.name, ColumnType::kInteger, true));
       model_.variables.push_back(other.name);
     }
+
     if (model_.variables.size() > kMaxVariables) {
       report_.error("E0257", {&states_}, "states have more than " + std::to_string(kMaxVariables) + " variables",
                     "other columns than mdp, state, name, terminal, start and initial are integer variables");
@@ -167,6 +176,7 @@ class CsvModelReader {
     const auto text = [&](std::size_t c) { return std::get<std::string>(row.cells[c]); };
     const auto number = transitions_by_mdp_ ? mdp_of_row(text(0), place(0)) : std::optional<std::size_t>{0};
     if (!number || !has_room(model_, place(first), report_)) return;
+
     RawTransition transition;
     const auto state = state_number(*number, text(first), place(first));
     const auto action = action_number(model_, text(first + 1), place(first + 1), report_);
@@ -177,10 +187,12 @@ class CsvModelReader {
     transition.next = *next;
     transition.at = static_cast<std::uint32_t>(place(first).offset);
     transition.probability_at = transition.at;
+
     if (has_probability_) {
       transition.probability = std::get<double>(row.cells[first + 3]);
       transition.probability_at = static_cast<std::uint32_t>(place(first + 3).offset);
     }
+
     for (std::size_t k = 0; k < features.size(); ++k) {
       features[k] = std::get<double>(row.cells[first_feature + k]);
       if (!check_finite(features[k], "feature '" + features_[k] + "'", place(first_feature + k), report_)) return;

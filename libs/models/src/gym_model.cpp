@@ -93,6 +93,7 @@ class GymReader {
       return malformed(table.place(), "expected a list or an object, not " + std::string{table.kind_name()},
                        "P[s][a] is a list of [probability, next state, reward, terminated]");
     }
+
     std::unordered_map<std::uint32_t, Value> seen;
     table.for_each_member([&](const Value& key, const Value& value) {
       if (report_.is_full()) return;
@@ -101,6 +102,8 @@ class GymReader {
         return malformed(key.place(), "expected a number as key, not \"" + key.string() + "\"",
                          "states and actions are numbered from 0");
       }
+
+      // "1" and "01" are two keys and one number.
       const auto [known, is_new] = seen.try_emplace(*index, key);
       if (is_new) return visit(*index, value);
       report_.error(numbered.twice, key.place(),
@@ -154,6 +157,7 @@ class GymReader {
       return malformed(value.place(), "an outcome must be [probability, next state, reward, terminated]",
                        "for instance [0.8, 3, -1.0, false]; the reward may be a list, a number per feature");
     }
+
     GymOutcome outcome;
     outcome.state = s;
     outcome.action = a;
@@ -161,12 +165,14 @@ class GymReader {
     outcome.probability = parts[0].number();
     outcome.probability_place = parts[0].place();
     outcome.terminated = parts[3].boolean();
+
     const double next = parts[1].number();
     if (next != std::floor(next) || next < 0.0 || next >= num_states_) {
       return report_.error("E0240", parts[1].place(), "there is no such state",
                            "states are numbered 0 to " + std::to_string(num_states_ - 1));
     }
     outcome.next = static_cast<std::uint32_t>(next);
+
     const auto row = reward_row(parts[2]);
     if (!row) return;
     outcome.features = *row;

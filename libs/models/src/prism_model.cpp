@@ -227,6 +227,7 @@ class PrismReader {
     if (!lines.next()) return void(malformed(lines.end(), "the names of variables, as in '(x,y)'"));
     const auto names = tuple(lines.line());
     if (!names || names->empty()) return void(malformed(lines.place(), "the names of variables, as in '(x,y)'"));
+
     std::vector<std::string> variables{names->begin(), names->end()};
     for (const std::string& one : variables) {
       if (!std::all_of(one.begin(), one.end(), [](char c) { return c >= ' ' && c < 0x7F; })) {
@@ -245,9 +246,11 @@ class PrismReader {
                     "leave some out");
       return;
     }
+
     mdp_.variables.assign(std::size_t{num_states_} * variables.size(), 0);
     std::vector<bool> seen(num_states_, false);
     while (lines.next() && !report_.is_full()) add_state(file, lines, variables.size(), seen);
+
     const auto missing = std::find(seen.begin(), seen.end(), false);
     if (!report_.has_errors() && missing != seen.end()) {
       report_.error("E0237", lines.end(), "state " + std::to_string(missing - seen.begin()) + " is missing",
@@ -285,6 +288,7 @@ class PrismReader {
                     "states are numbered 0 to " + std::to_string(num_states_ - 1));
       return;
     }
+
     seen[*number] = true;
     mdp_.states[*number].place = lines.place();
     for (std::size_t v = 0; v < num_variables; ++v) {
@@ -425,6 +429,7 @@ class PrismReader {
                     "write all labels of a state on one line");
       return;
     }
+
     seen[*number] = true;
     RawState& state = mdp_.states[*number];
     for (std::size_t w = 1; w < words.size(); ++w) {
