@@ -129,6 +129,7 @@ bool is_shown(const Answer& answer) { return answer.p && *answer.p < AnalysisOpt
 Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
   Answer answer{"Together compared with one after the other", outcome.name, outcome.digits};
   answer.means = two_means(screen, outcome);
+
   if (const auto* finding = finding_of(screen, outcome.id + "-baseline"); finding != nullptr) {
     answer.finding = finding->id;
     const auto* family = comparisons_of(*finding, ComparisonFamily::Kind::kAlone);
@@ -142,7 +143,9 @@ Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
     answer.high = test->high;
     answer.p = test->test.p;
   }
+
   const double together = mean(values_of(screen, outcome, false)), alone = mean(values_of(screen, outcome, true));
+
   answer.answer = "no difference found";
   if (!answer.p) answer.answer = "not tested";
   if (is_shown(answer)) {

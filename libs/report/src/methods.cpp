@@ -90,6 +90,7 @@ class Paragraph {
     for (const auto& composition : spec_.compositions) sizes.insert(composition.size());
     std::string members = std::to_string(*sizes.begin());
     if (sizes.size() > 1) members += " to " + std::to_string(*sizes.rbegin());
+
     std::vector<std::string> names;
     std::string types;
     for (const auto& strategy : spec_.strategies) names.push_back(strategy.name);
@@ -97,9 +98,11 @@ class Paragraph {
       if (type.label.empty()) continue;
       types += (types.empty() ? "" : ", ") + std::string{type.letter} + ": " + type.label;
     }
+
     say("We simulated " + counted(data_.teams.size(), "team") + " of " + members +
         (sizes == std::set<std::size_t>{1} ? " learner" : " learners") + " with " + program() + " and random seed " +
         std::to_string(spec_.seed) + ".");
+
     say("The design crossed " + counted(names.size(), "teaching strategy", "teaching strategies") +
         cite_("jayaraman2024") + ", " + listed(names) + ", with " +
         counted(spec_.compositions.size(), "team composition") + ", " + listed(spec_.compositions) +
@@ -239,6 +242,7 @@ class Paragraph {
     const auto& options = spec_.teaching;
     const auto teachers =
         counted(options.filter.particles, "particle") + " and " + shortest(options.filter.process_noise);
+
     std::vector<const LearnerType*> believers;
     for (const auto* type : types_of(nullptr)) {
       if (num_particles(type->parameters) > 0) believers.push_back(type);
@@ -247,8 +251,10 @@ class Paragraph {
       const auto particles = counted(num_particles(type.parameters), "particle");
       return particles + " and " + shortest(type.parameters.real("process_noise"));
     });
+
     const auto own =
         believers.empty() || teachers == peoples ? "" : "; those of the learners themselves had " + peoples;
+
     say("Beliefs about the reward weights were represented by particle filters on the unit sphere with " +
         counted(options.filter.particles, "particle") + ", the " +
         (options.likelihood == LikelihoodForm::kDiscontinuous ? "discontinuous" : "continuous") +
@@ -271,6 +277,7 @@ class Paragraph {
         " from the belief of the strategy" +
         (spec_.learner_counterfactuals_self ? "; learners interpreted them with counterfactuals from their own beliefs."
                                             : "."));
+
     say("A knowledge component was taught " + options.mastery.kind.until(options, options.mastery.parameters) +
         (options.duplicate_sets == 1 ? ""
                                      : ", with " + std::to_string(options.duplicate_sets) + " sets of tests each") +
@@ -280,10 +287,12 @@ class Paragraph {
           " had no part in the remaining periods of a component.");
     }
     if (spec_.grouping == Grouping::kByType) say("The members of each learner type had a session of their own.");
+
     const auto missed = static_cast<std::size_t>(std::count_if(
         data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed && !team.skipped; }));
     const auto skipped = static_cast<std::size_t>(
         std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return team.skipped; }));
+
     if (skipped > 0) {
       say(counted(skipped, "team") +
           " did not learn all of some component, because nothing that could be shown conveys the rest, and " +
@@ -298,10 +307,13 @@ class Paragraph {
   void measures() {
     const auto is_baseline = [](const auto& series) { return series.strategy == kBaseline; };
     const bool baseline = std::any_of(design_.series.begin(), design_.series.end(), is_baseline);
+
     say("Periods are the interaction periods of a team" +
         std::string{baseline ? ", for the baseline summed over its members" : ""} +
         "; knowledge is the probability mass that a person's final belief gives to the behaviour equivalence class of "
         "the policy, averaged over the team.");
+
+    // What only some studies measure.
     if (spec_.exam != ExamLevel::kNone) {
       say("In addition, everybody was examined on all start states: the share right is the expected share of starts "
           "where a person's prediction is as good as the robot's path, and regret is what predictions lose, in the "
@@ -359,6 +371,8 @@ class Paragraph {
       return std::all_of(topic.findings.begin(), topic.findings.end(),
                          [&](const auto& one) { return has(*one.second, method); });
     };
+
+    // What all responses of the topic have in common is said once.
     std::vector<std::string> responses, common;
     for (const auto& [response, finding] : topic.findings) {
       if (!response.empty()) responses.push_back(response);
@@ -366,6 +380,7 @@ class Paragraph {
     for (const auto& method : topic.findings.front().second->methods) {
       if (in_all(method)) common.push_back(method.text + cite_(method.source));
     }
+
     auto text = topic.title + (responses.empty() ? "" : " (" + listed(responses) + ")") + ": " + listed(common);
     for (const auto& [response, finding] : topic.findings) {
       std::vector<std::string> own;

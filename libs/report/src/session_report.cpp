@@ -129,6 +129,7 @@ class PeopleTables {
     const auto& rows = tables_.tests;
     const auto member = rows.numbers(columns::kMember), period = rows.numbers(columns::kPeriod),
                correct = rows.numbers(columns::kCorrect);
+
     std::map<Key, Count> counts;
     for (std::size_t i = 0; i < rows.num_rows(); ++i) {
       const auto session = rows.cells(columns::kSession)[i].value_or("");
@@ -139,6 +140,8 @@ class PeopleTables {
       ++count.answers;
       count.right += *correct[i] != 0.0 ? 1u : 0u;
     }
+
+    // Too few people are no curve.
     JsonTable table{{"strategy", "type", "period", "share", "low", "high", "answers"}};
     for (const auto& [key, count] : counts) {
       if (!is_enough(count.people.size(), people_of(key))) continue;
@@ -228,6 +231,7 @@ Json labels_of(const SessionTables& tables, const ReportDesign& design) {
       if (!letter.empty()) names[letter.front()] = label;
     }
   }
+
   const Json columns{{"type", "Type of the place"},
                      {"kc", "Component"},
                      {"teams", "Groups"},
@@ -241,6 +245,7 @@ Json labels_of(const SessionTables& tables, const ReportDesign& design) {
                      {"at_risk", "At risk"},
                      {"low", "95 % low"},
                      {"high", "95 % high"}};
+
   const std::string estimate =
       "The teacher's estimate: the share of its belief about a member that lies in the policy's region (BEC). ";
   const Json figures{
@@ -306,6 +311,7 @@ std::vector<std::string> notes_of(const SessionTables& tables, const PeopleTable
     notes.push_back(how_many(tables.num_waiting, "room was", "rooms were") + " never taught and " +
                     (tables.num_waiting == 1 ? "is" : "are") + " left out.");
   }
+
   std::map<std::string, std::size_t> reasons;
   for (const auto& group : tables.groups) {
     if (!group.ended.empty()) ++reasons[group.ended];
@@ -316,12 +322,14 @@ std::vector<std::string> notes_of(const SessionTables& tables, const PeopleTable
     listed += (listed.empty() ? "" : ", ") + reason + ": " + std::to_string(count);
     ended += count;
   }
+
   const auto censored = tables.groups.size() - num_completed(tables);
   if (censored > 0) {
     notes.push_back(how_many(censored, "group", "groups") + " stopped before everything was learned" +
                     (ended > 0 ? " (" + listed + ")" : std::string{}) +
                     ". The completion curves treat them as censored; means include them with the periods they had.");
   }
+
   if (people.num_simulated() > 0) {
     notes.push_back("Simulated learners had the places of " + how_many(people.num_simulated(), "member", "members") +
                     ". Curves over periods leave those places out; knowledge at the end includes them.");
@@ -341,11 +349,14 @@ std::vector<Finding> findings_of(const SessionTables& tables, std::vector<std::s
   std::string factors;
   if (num_levels(tables, &LiveGroup::strategy) > 1) factors = "strategy";
   if (num_levels(tables, &LiveGroup::composition) > 1) factors += factors.empty() ? "composition" : "*composition";
+
   std::vector<Finding> findings;
   if (factors.empty()) {
     notes.emplace_back("Nothing was tested: all groups were taught alike.");
     return findings;
   }
+
+  // Groups that have begun.
   const std::vector<std::string> needed{"started_ms"};
   const auto taught = tables.sessions.complete(needed);
   for (const std::string response : {"periods", "knowledge"}) {
@@ -402,15 +413,18 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
   const auto step = [&](std::string_view text) {
     if (options.on_step) options.on_step(text);
   };
+
   step("reading the tables");
   const auto tables = read_session_tables(folder);
   const auto design = design_of(tables);
   const auto data = data_of(tables);
   const PeopleTables people{tables, design};
   auto notes = notes_of(tables, people);
+
   step("analysing");
   const auto findings = findings_of(tables, notes);
   const FirstScreen screen{.design = design, .data = data, .findings = findings, .simulated = false};
+
   Json strategies = Json::array();
   for (const auto& series : design.series) strategies.push_back(series.code);
   std::vector<std::string> compositions;
@@ -418,6 +432,7 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
     if (std::find(compositions.begin(), compositions.end(), cell.composition) == compositions.end())
       compositions.push_back(cell.composition);
   }
+
   Json shown{{"cells", without_columns(cells_table(design, data), "area")},
              {"teams", groups_table(tables, options.points_per_cell)},
              {"completion", completion_table(design, data)},
@@ -433,12 +448,14 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
                 {"compositions", compositions},
                 {"factors", Json::array()},
                 {"summary", summary_of(tables, design.people)}};
+
   if (!tables.groups.empty()) {
     overview["finding"] = headline(screen);
     overview["answers"] = answers(screen);
     overview["limits"] = limits(screen);
     if (auto figure = differences(screen); !figure.is_null()) overview["differences"] = std::move(figure);
   }
+
   return {{"schema", "kith.report/1"},
           {"title", title.empty() ? about(tables, "study") : title},
           {"study", about(tables, "study")},

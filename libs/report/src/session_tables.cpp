@@ -71,6 +71,7 @@ std::vector<LiveGroup> groups_of(const Dataset& sessions, const Json& about) {
   const auto started = sessions.numbers(columns::kStartedMs), replicate = sessions.numbers(columns::kReplicate),
              people = sessions.numbers(columns::kPeople), completed = sessions.numbers(columns::kCompleted),
              periods = sessions.numbers(columns::kPeriods), knowledge = sessions.numbers(columns::kKnowledge);
+
   std::vector<LiveGroup> groups;
   for (std::size_t i = 0; i < sessions.num_rows(); ++i) {
     if (!started[i]) continue;
@@ -84,6 +85,7 @@ std::vector<LiveGroup> groups_of(const Dataset& sessions, const Json& about) {
                       .knowledge = knowledge[i],
                       .ended = text(columns::kEnded, i)});
   }
+
   const auto strategies = texts_of(about, "strategies"), compositions = texts_of(about, "compositions");
   const auto key = [&](const LiveGroup& group) {
     return std::tuple{rank_in(strategies, group.strategy), group.strategy, rank_in(compositions, group.composition),

@@ -65,10 +65,12 @@ Json cells_table(const ReportDesign& design, const RunData& data) {
     for (const auto* statistic : {"_mean", "_sd", "_low", "_high"}) columns.push_back(quantity + statistic);
   }
   JsonTable table{columns};
+
   std::vector<std::size_t> completed(design.cells.size());
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     if (data.teams[i].completed) ++completed[design.cell_of_team[i]];
   }
+
   std::vector<std::vector<Values>> quantities{by_cell(design, data, &TeamValues::periods),
                                               by_cell(design, data, &TeamValues::knowledge),
                                               by_cell(design, data, &TeamValues::area_sr)};
@@ -77,6 +79,7 @@ Json cells_table(const ReportDesign& design, const RunData& data) {
          {&TeamValues::exam_share_right, &TeamValues::exam_regret, &TeamValues::exam_worst_share_right})
       quantities.push_back(by_cell(design, data, quantity));
   }
+
   for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
     auto row = cell_keys(design, cell);
     row.push_back(design.cells[cell].teams);
