@@ -22,7 +22,7 @@ class RoomRowPage {
     const bool is_list = room_.setup.is_waiting_list;
     Json row{{"id", room_.setup.id}};
     if (is_facilitator_) row["code"] = room_.setup.code;
-    row["stage"] = stage_word();
+    row["stage"] = stage_ == RoomStage::kRunning && state_.paused_us ? "paused" : name_of(stage_);
     row["strategy"] = is_list ? "waiting list" : strategy_name(state_);
     row["composition"] = room_.setup.composition;
     if (is_list) row["waiting_list"] = true;
@@ -38,20 +38,6 @@ class RoomRowPage {
   }
 
  private:
-  [[nodiscard]] const char* stage_word() const {
-    switch (stage_) {
-      case RoomStage::kLobby:
-        return "lobby";
-      case RoomStage::kQuestions:
-        return "questions";
-      case RoomStage::kEnded:
-        return "ended";
-      case RoomStage::kRunning:
-        break;
-    }
-    return state_.paused_us ? "paused" : "running";
-  }
-
   // The one under way, or the next one, from 1.
   [[nodiscard]] std::size_t component() const {
     const auto components = components_of(state_);

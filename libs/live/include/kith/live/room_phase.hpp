@@ -10,6 +10,19 @@ namespace kith {
 
 /// The stage of a room.
 enum class RoomStage { kLobby, kRunning, kQuestions, kEnded };
+[[nodiscard]] constexpr std::string_view name_of(RoomStage stage) noexcept {
+  switch (stage) {
+    case RoomStage::kLobby:
+      return "lobby";
+    case RoomStage::kRunning:
+      return "running";
+    case RoomStage::kQuestions:
+      return "questions";
+    case RoomStage::kEnded:
+      return "ended";
+  }
+  return {};
+}
 
 /// What the group in a room does. The order stays: digests count in it.
 enum class RoomPhase { kLobby, kTeaching, kWatching, kTesting, kFeedback, kQuestions, kEnded, kDiscussing };
