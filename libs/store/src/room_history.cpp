@@ -168,6 +168,31 @@ std::size_t RoomHistory::seat_of(std::size_t member) const {
   return last;
 }
 
+std::size_t RoomHistory::seat_in(std::size_t period, std::size_t member) const {
+  for (const auto& answer : answers) {
+    if (answer.period == period && answer.member == member && !is_void(answer)) return answer.seat;
+  }
+  return 0;
+}
+
+std::string RoomHistory::stage_of(std::size_t seat) const {
+  return seat <= room->num_seats() ? room->stage_of(seat) : std::string{};
+}
+
+std::optional<std::string> RoomHistory::type_of(std::optional<std::size_t> member) const {
+  const auto& letters = room->setup().composition;
+  if (!member || *member == 0 || *member > letters.size()) return std::nullopt;
+  return std::string{letters[*member - 1]};
+}
+
+const Verdict* RoomHistory::verdict(std::size_t period, std::size_t member, std::size_t test) const {
+  const auto& past = room->session().history();
+  if (period == 0 || period > past.size() || member == 0) return nullptr;
+  const auto& verdicts = past[period - 1].feedback.verdicts;
+  if (member > verdicts.size() || test >= verdicts[member - 1].size()) return nullptr;
+  return &verdicts[member - 1][test];
+}
+
 RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::shared_ptr<const LiveStudy>& study,
                          TeachingCache& cache) {
   RoomHistory history;

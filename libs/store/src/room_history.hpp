@@ -61,6 +61,16 @@ struct RoomHistory {
   [[nodiscard]] const LessonRow* lesson_of(std::size_t period) const;
   // The seat that a member's place belongs to last; 0: none.
   [[nodiscard]] std::size_t seat_of(std::size_t member) const;
+  // The person who answered for a member in a period; 0: nobody, or a stand-in.
+  [[nodiscard]] std::size_t seat_in(std::size_t period, std::size_t member) const;
+  // What a seat is shown at the end, see Room::stage_of().
+  [[nodiscard]] std::string stage_of(std::size_t seat) const;
+  // The letter of a member's type; none without a member.
+  [[nodiscard]] std::optional<std::string> type_of(std::optional<std::size_t> member) const;
+  // Whether another lesson was taught in place of the one that the answer belongs to.
+  [[nodiscard]] bool is_void(const AnswerRow& answer) const { return lessons[answer.lesson].is_replaced; }
+  // The verdict on an answer, if the period was finished and the member took part.
+  [[nodiscard]] const Verdict* verdict(std::size_t period, std::size_t member, std::size_t test) const;
 };
 
 // Replays a room and collects. @throws kith::Error kMismatch E1614 if it does not replay to what it was.

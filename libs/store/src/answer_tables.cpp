@@ -1,0 +1,185 @@
+#include <algorithm>
+
+#include "kith/present/json.hpp"
+#include "room_export.hpp"
+
+namespace kith {
+namespace {
+
+// What a row of tests.csv is about.
+struct GivenAnswer {
+  std::size_t period = 0;
+  std::size_t test = 0;  // from 0
+  std::size_t seat = 0;
+  std::size_t member = 0;
+  const AnswerRow* answer = nullptr;
+  [[nodiscard]] auto key() const { return std::tuple{period, test, member, seat}; }
+};
+
+struct AnswerTables : RoomExport {
+  [[nodiscard]] std::vector<GivenAnswer> given_answers() const {
+    std::vector<GivenAnswer> rows;
+    for (const auto& answer : history.answers) {
+      rows.push_back({.period = answer.period,
+                      .test = answer.test,
+                      .seat = answer.seat,
+                      .member = answer.member,
+                      .answer = &answer});
+    }
+    for (const auto& [seat, person] : history.seats) {
+      if (!person.simulated || !person.member) continue;
+      for (std::size_t period = 1; period <= session().history().size(); ++period) {
+        const auto& verdicts = session().history()[period - 1].feedback.verdicts[*person.member - 1];
+        const auto* lesson = history.lesson_of(period);
+        const bool was_there = lesson != nullptr && person.joined_us <= lesson->chosen_us;
+        if (!was_there || history.seat_in(period, *person.member) != 0) continue;
+        for (std::size_t test = 0; test < verdicts.size(); ++test)
+          rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
+      }
+    }
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
+    return rows;
+  }
+
+  void write_tests() const {
+    for (const auto& test : given_answers()) {
+      const auto* answer = test.answer;
+      const auto* lesson_row = answer != nullptr ? &history.lessons[answer->lesson] : history.lesson_of(test.period);
+      if (lesson_row == nullptr || test.test >= lesson_row->lesson.tests.size()) continue;
+      const auto& lesson = lesson_row->lesson;
+      const auto place = study.atlas->id(lesson.tests[test.test].demo);
+      const auto* judged = lesson_row->is_replaced ? nullptr : history.verdict(test.period, test.member, test.test);
+      TestRow row{.session = id(),
+                  .period = test.period,
+                  .component = lesson.component + 1,
+                  .test = test.test + 1,
+                  .seat = test.seat,
+                  .member = test.member,
+                  .type = history.type_of(test.member).value_or(""),
+                  .strategy = setup().strategy,
+                  .mdp = place.mdp.value(),
+                  .mdp_name = if_any(study.atlas->domain().world_name(place.mdp)),
+                  .start = place.start.value(),
+                  .actions = 0,
+                  .at_ms = ms_of(answer != nullptr ? answer->at_us : lesson_row->chosen_us)};
+      if (answer != nullptr) {
+        row.path = path_of(*answer);
+        row.actions = answer->actions.size();
+        if (answer->ms) row.rt = static_cast<double>(*answer->ms) / 1000.0;
+      }
+      if (judged != nullptr) {
+        row.correct = judged->correct;
+        if (judged->answered) row.regret = judged->regret;
+      }
+      write.add(tables.tests, row);
+      if (answer != nullptr) write_keys(*answer);
+    }
+  }
+
+  [[nodiscard]] std::string name_of_action(std::size_t action) const {
+    const auto& names = study.atlas->domain().action_names();
+    return action < names.size() ? names[action] : std::to_string(action);
+  }
+
+  [[nodiscard]] std::string path_of(const AnswerRow& answer) const {
+    std::string path;
+    for (const auto action : answer.actions) path += (path.empty() ? "" : " ") + name_of_action(action);
+    return path + (answer.for_ever ? " ..." : "");
+  }
+
+  void write_keys(const AnswerRow& answer) const {
+    if (!answer.keys.is_array()) return;
+    std::size_t number = 0;
+    for (const auto& key : answer.keys) {
+      ++number;
+      if (!key.is_array() || key.size() != 2 || !key[1].is_number_integer()) continue;
+      std::string action = "?";
+      if (key[0].is_number_unsigned()) action = name_of_action(key[0].get<std::size_t>());
+      if (key[0].is_string()) action = printable(key[0].get<std::string>());
+      write.add(tables.keys, {.session = id(),
+                              .period = answer.period,
+                              .test = answer.test + 1,
+                              .seat = answer.seat,
+                              .key = number,
+                              .action = action,
+                              .ms = key[1].get<std::int64_t>()});
+    }
+  }
+
+  void write_questions() const {
+    for (const auto& [seat, person] : history.seats) {
+      for (const auto& question : study.group().questions) {
+        const auto answer = person.answers.find(question.id);
+        if (answer == person.answers.end() || answer->is_null()) continue;
+        const bool is_hidden = question.kind == GroupQuestion::Kind::kText && !options.with_text;
+        QuestionRow row{
+            .session = id(), .seat = seat, .question = question.id, .kind = std::string{name_of(question.kind)}};
+        if (!is_hidden) row.value = printable(answer->is_string() ? answer->get<std::string>() : answer->dump());
+        write.add(tables.questions, row);
+      }
+    }
+  }
+
+  // What each person saw, answered and heard, as `kith fit` reads it. Stand-ins are left out.
+  void write_trials() const {
+    for (const auto& period : session().history()) {
+      for (std::size_t member = 1; member <= period.feedback.verdicts.size(); ++member) {
+        const auto& verdicts = period.feedback.verdicts[member - 1];
+        const auto seat = history.seat_in(period.lesson.period, member);
+        if (verdicts.empty() || seat == 0) continue;
+        const auto& lesson = period.lesson;
+        for (const auto& shown : lesson.demonstrations)
+          write_trial(seat, lesson, "demo", std::nullopt, shown.half_spaces);
+        for (std::size_t i = 0; i < verdicts.size(); ++i) {
+          write_trial(seat, lesson, "diagnostic test", verdicts[i].correct, lesson.tests[i].covered);
+          write_trial(seat, lesson, "diagnostic feedback", std::nullopt, lesson.tests[i].covered);
+        }
+      }
+    }
+  }
+
+  void write_discussions() const {
+    for (const auto& past : session().history()) {
+      const auto& feedback = past.feedback;
+      for (std::size_t m = 0; m < past.revised.size(); ++m) {
+        const auto seat = history.seat_in(past.lesson.period, m + 1);
+        for (std::size_t t = 0; t < feedback.verdicts[m].size(); ++t) {
+          const bool changed = !past.revised[m].empty() && past.revised[m][t] != past.answers[m][t];
+          write.add(tables.discussions, {.session = id(),
+                                         .period = past.lesson.period,
+                                         .component = past.lesson.component + 1,
+                                         .test = t + 1,
+                                         .seat = seat == 0 ? std::nullopt : std::optional{seat},
+                                         .member = m + 1,
+                                         .correct = feedback.verdicts[m][t].correct,
+                                         .revised_correct = feedback.final_verdicts(m)[t].correct,
+                                         .changed = changed});
+        }
+      }
+    }
+  }
+
+  void write_trial(std::size_t seat, const Lesson& lesson, const char* type, std::optional<bool> correct,
+                   const std::vector<HalfSpace>& constraints) const {
+    TrialRow row{.user_id = std::to_string(seat),
+                 .group = id(),
+                 .domain = study.atlas->domain().id(),
+                 .kc_id = std::to_string(lesson.component + 1),
+                 .interaction_type = type,
+                 .mdp_parameters = Json{{"constraints", to_json(constraints, study.spec.num_features)}}.dump()};
+    if (correct) row.is_opt_response = *correct ? "1" : "0";
+    write.add(tables.trials, row);
+  }
+};
+
+}  // namespace
+
+void write_answers(const RoomExport& room) {
+  const AnswerTables tables{room};
+  tables.write_tests();
+  if (room.options.with_discussions) tables.write_discussions();
+  tables.write_questions();
+  tables.write_trials();
+}
+
+}  // namespace kith
