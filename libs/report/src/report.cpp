@@ -1,7 +1,10 @@
 #include "kith/report/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include "beliefs.hpp"
 #include "estimate_tables.hpp"
@@ -23,6 +26,87 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 6'000;  // teams listed one by one, in all
 
+// What a column of statistics is called behind the column that they are of.
+struct Statistic {
+  std::string_view suffix, text;
+};
+constexpr std::array kMoments{Statistic{"_mean", ", mean"}, Statistic{"_sd", ", sd"}, Statistic{"_low", ", 95 % low"},
+                              Statistic{"_high", ", 95 % high"}};
+constexpr std::array kInterval{Statistic{"_low", ", 95 % low"}, Statistic{"_high", ", 95 % high"}};
+constexpr std::array kForecast{Statistic{"_mean", ", mean"}, Statistic{"_low", ", 80 % low"},
+                               Statistic{"_high", ", 80 % high"}};
+
+// The heading of a column and of its statistics.
+struct Heading {
+  std::string_view column;
+  std::string_view text;  // empty: there are only statistics
+  std::span<const Statistic> statistics{};
+  std::string_view stem{};  // of the headings of the statistics; empty: the text
+};
+constexpr std::array kHeadings{
+    Heading{"strategy", "Strategy"},
+    Heading{"composition", "Composition"},
+    Heading{"type", "Learner type"},
+    Heading{"kc", "Component"},
+    Heading{"teams", "Teams"},
+    Heading{"team", "Team"},
+    Heading{"replicate", "Replicate"},
+    Heading{"completed", "Completed"},
+    Heading{"people", "People still taught"},
+    Heading{"answers", "Answers"},
+    Heading{"period", "Period"},
+    Heading{"period_of_kc", "Period of the component"},
+    Heading{"periods", "Periods", kMoments},
+    Heading{"knowledge", "Knowledge", kMoments},
+    Heading{"exam_share_right", "Share right in the exam", kMoments, "Share right"},
+    Heading{"exam_regret", "Regret in the exam", kMoments, "Regret"},
+    Heading{"exam_worst_share_right", "Worst member's share right", kMoments},
+    Heading{"share_right", "Share right", kInterval},
+    Heading{"worst_share_right", "Worst member's share right", kInterval},
+    Heading{"regret", "Regret", kInterval},
+    Heading{"items", "Items shown", kInterval, "Items"},
+    Heading{"minutes", "Teaching minutes", kInterval},
+    Heading{"person_minutes", "Person minutes", kInterval},
+    Heading{"on_front", "On the front"},
+    Heading{"front_share", "On the front, share of bootstrap samples"},
+    Heading{"forecast", "Forecast", kForecast},
+    Heading{"predicted", "Predicted"},
+    Heading{"actual", "Actual", kInterval},
+    Heading{"correlation", "Correlation"},
+    Heading{"told", "Told"},
+    Heading{"told_correctly", "Of these, correctly"},
+    Heading{"within", "Within", kInterval},
+    Heading{"area", "", kMoments, "Area (sr)"},
+    Heading{"mean_area_sr", "Area (sr), mean"},
+    Heading{"mean_log_area", "Log area, mean"},
+    Heading{"mean_periods", "Periods, mean"},
+    Heading{"mean", "Mean"},
+    Heading{"share", "Share"},
+    Heading{"low", "95 % low"},
+    Heading{"high", "95 % high"},
+    Heading{"n", "Teams"},
+    Heading{"done", "Done"},
+    Heading{"at_risk", "At risk"},
+    Heading{"phase", "Phase"},
+    Heading{"seconds", "Seconds"},
+    Heading{"group", "Group"},
+    Heading{"key", "Key"},
+    Heading{"value", "Value"},
+    Heading{"meaning", "Meaning"},
+};
+
+Json headings() {
+  Json columns = Json::object();
+  for (const auto& heading : kHeadings) {
+    if (!heading.text.empty()) columns[std::string{heading.column}] = heading.text;
+    const std::string stem{heading.stem.empty() ? heading.text : heading.stem};
+    for (const auto& statistic : heading.statistics) {
+      columns[std::string{heading.column}.append(statistic.suffix)] = stem + std::string{statistic.text};
+    }
+  }
+  return columns;
+}
+
 Json labels_of(const RunFiles& run, const ReportDesign& design) {
   Json strategies = Json::object(), types = Json::object();
   for (const auto& series : design.series) strategies[series.code] = series.label;
@@ -30,103 +114,12 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
     const std::string letter{type.letter};
     types[letter] = type.label.empty() ? letter : type.label;
   }
-  const Json columns{{"strategy", "Strategy"},
-                     {"composition", "Composition"},
-                     {"type", "Learner type"},
-                     {"kc", "Component"},
-                     {"teams", "Teams"},
-                     {"team", "Team"},
-                     {"replicate", "Replicate"},
-                     {"completed", "Completed"},
-                     {"people", "People still taught"},
-                     {"answers", "Answers"},
-                     {"period", "Period"},
-                     {"period_of_kc", "Period of the component"},
-                     {"periods", "Periods"},
-                     {"periods_mean", "Periods, mean"},
-                     {"periods_sd", "Periods, sd"},
-                     {"periods_low", "Periods, 95 % low"},
-                     {"periods_high", "Periods, 95 % high"},
-                     {"knowledge", "Knowledge"},
-                     {"knowledge_mean", "Knowledge, mean"},
-                     {"knowledge_sd", "Knowledge, sd"},
-                     {"knowledge_low", "Knowledge, 95 % low"},
-                     {"knowledge_high", "Knowledge, 95 % high"},
-                     {"exam_share_right", "Share right in the exam"},
-                     {"exam_share_right_mean", "Share right, mean"},
-                     {"exam_share_right_sd", "Share right, sd"},
-                     {"exam_share_right_low", "Share right, 95 % low"},
-                     {"exam_share_right_high", "Share right, 95 % high"},
-                     {"exam_regret", "Regret in the exam"},
-                     {"exam_regret_mean", "Regret, mean"},
-                     {"exam_regret_sd", "Regret, sd"},
-                     {"exam_regret_low", "Regret, 95 % low"},
-                     {"exam_regret_high", "Regret, 95 % high"},
-                     {"exam_worst_share_right", "Worst member's share right"},
-                     {"exam_worst_share_right_mean", "Worst member's share right, mean"},
-                     {"exam_worst_share_right_sd", "Worst member's share right, sd"},
-                     {"exam_worst_share_right_low", "Worst member's share right, 95 % low"},
-                     {"exam_worst_share_right_high", "Worst member's share right, 95 % high"},
-                     {"share_right", "Share right"},
-                     {"share_right_low", "Share right, 95 % low"},
-                     {"share_right_high", "Share right, 95 % high"},
-                     {"worst_share_right", "Worst member's share right"},
-                     {"worst_share_right_low", "Worst member's share right, 95 % low"},
-                     {"worst_share_right_high", "Worst member's share right, 95 % high"},
-                     {"regret", "Regret"},
-                     {"regret_low", "Regret, 95 % low"},
-                     {"regret_high", "Regret, 95 % high"},
-                     {"items", "Items shown"},
-                     {"items_low", "Items, 95 % low"},
-                     {"items_high", "Items, 95 % high"},
-                     {"minutes", "Teaching minutes"},
-                     {"minutes_low", "Teaching minutes, 95 % low"},
-                     {"minutes_high", "Teaching minutes, 95 % high"},
-                     {"person_minutes", "Person minutes"},
-                     {"person_minutes_low", "Person minutes, 95 % low"},
-                     {"person_minutes_high", "Person minutes, 95 % high"},
-                     {"on_front", "On the front"},
-                     {"front_share", "On the front, share of bootstrap samples"},
-                     {"forecast", "Forecast"},
-                     {"forecast_mean", "Forecast, mean"},
-                     {"forecast_low", "Forecast, 80 % low"},
-                     {"forecast_high", "Forecast, 80 % high"},
-                     {"predicted", "Predicted"},
-                     {"actual", "Actual"},
-                     {"actual_low", "Actual, 95 % low"},
-                     {"actual_high", "Actual, 95 % high"},
-                     {"correlation", "Correlation"},
-                     {"told", "Told"},
-                     {"told_correctly", "Of these, correctly"},
-                     {"within", "Within"},
-                     {"within_low", "Within, 95 % low"},
-                     {"within_high", "Within, 95 % high"},
-                     {"area_mean", "Area (sr), mean"},
-                     {"area_sd", "Area (sr), sd"},
-                     {"area_low", "Area (sr), 95 % low"},
-                     {"area_high", "Area (sr), 95 % high"},
-                     {"mean_area_sr", "Area (sr), mean"},
-                     {"mean_log_area", "Log area, mean"},
-                     {"mean_periods", "Periods, mean"},
-                     {"mean", "Mean"},
-                     {"share", "Share"},
-                     {"low", "95 % low"},
-                     {"high", "95 % high"},
-                     {"n", "Teams"},
-                     {"done", "Done"},
-                     {"at_risk", "At risk"},
-                     {"phase", "Phase"},
-                     {"seconds", "Seconds"},
-                     {"group", "Group"},
-                     {"key", "Key"},
-                     {"value", "Value"},
-                     {"meaning", "Meaning"}};
   std::map<char, std::string> names;
   for (const auto& type : run.types()) names[type.letter] = type.label;
   return {{"strategies", std::move(strategies)},
           {"types", std::move(types)},
           {"meanings", meanings(design, names)},
-          {"columns", columns}};
+          {"columns", headings()}};
 }
 
 // "300 teams of 3 simulated people were taught what a robot does, in 5 ways."
@@ -147,14 +140,17 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
   Json strategies = Json::array(), factors = Json::array();
   for (const auto& series : design.series) strategies.push_back(series.code);
   for (const auto& factor : run.spec().factors) factors.push_back(factor.key);
+
   const auto completed =
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed; });
   const auto skipped =
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.skipped; });
+
   const FirstScreen screen{.design = design,
                            .data = data,
                            .findings = analysis.findings,
                            .paired = run.spec().pairing == Pairing::kReplicate};
+
   Json overview{{"simulated", true},
                 {"teams", data.teams.size()},
                 {"people", design.people},
@@ -344,8 +340,10 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   const auto step = [&](std::string_view text) {
     if (options.on_step) options.on_step(text);
   };
+
   const auto run = open_run(folder, options.kinds);
   const auto design = design_of(run);
+
   step("planning the robot's paths");
   const Atlas atlas{run.domain};
   auto data = read_run_data(run, design, atlas.knowledge_components().size(), step);
@@ -353,6 +351,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   const auto points = std::min(options.points_per_cell, std::max<std::size_t>(1, kMaxPoints / design.cells.size()));
   note_data(run, design, data, points, notes);
   note_estimate(atlas, notes);
+
   step("computing tables");
   auto tables = tables_of(run, design, data, atlas, points, notes);
   step("analysing");
@@ -361,6 +360,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   auto beliefs = belief_spheres(run, design, data, atlas, options.sphere_particles, notes);
   step("reading the lessons of single teams");
   auto lessons = team_lessons(run, design, data, atlas, notes);
+
   const auto& spec = run.spec();
   Json document{{"schema", "kith.report/1"},
                 {"title", spec.title.empty() ? spec.id : spec.title},
@@ -375,6 +375,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
                 {"findings", Json::parse(findings_json(analysis))},
                 {"methods", methods_of(run, design, data, analysis)},
                 {"reproduce", reproduction_of(run)}};
+
   if (beliefs) document["beliefs"] = *std::move(beliefs);
   if (lessons) document["lessons"] = *std::move(lessons);
   return document;
