@@ -29,17 +29,23 @@ constexpr std::array kOthers{
     Permission{"GET /api/integrity", kNo, kNo, kNo, kYes},
 };
 
-constexpr std::array<std::string_view, 4> kRoles{"nobody", "participant", "observer", "facilitator"};
+struct RoleName {
+  Role role;
+  std::string_view name;
+};
+constexpr std::array kRoles{RoleName{Role::kNobody, "nobody"}, RoleName{Role::kParticipant, "participant"},
+                            RoleName{Role::kObserver, "observer"}, RoleName{Role::kFacilitator, "facilitator"}};
 
 }  // namespace
 
-std::string_view name_of(Role role) noexcept { return kRoles[static_cast<std::size_t>(role)]; }
+std::string_view name_of(Role role) noexcept {
+  return std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleName& one) { return one.role == role; })->name;
+}
 
 Role role_named(std::string_view name) noexcept {
-  for (std::size_t i = 0; i < kRoles.size(); ++i) {
-    if (kRoles[i] == name) return static_cast<Role>(i);
-  }
-  return Role::kNobody;
+  const auto* const found =
+      std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleName& one) { return one.name == name; });
+  return found == kRoles.end() ? Role::kNobody : found->role;
 }
 
 std::span<const Permission> permissions() noexcept {
