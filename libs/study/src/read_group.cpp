@@ -5,20 +5,41 @@
 #include <set>
 #include <string>
 
+#include "kith/core/option_key.hpp"
 #include "parameters_toml.hpp"
 
 namespace kith {
+
+template <>
+inline constexpr std::array kWordsFor<DropoutPolicy>{
+    WordFor{DropoutPolicy::kPauseThenContinue, "pause-then-continue"},
+    WordFor{DropoutPolicy::kContinueNow, "continue-now"},
+    WordFor{DropoutPolicy::kReplaceFromPool, "replace-from-pool"},
+    WordFor{DropoutPolicy::kSimulate, "simulate"},
+    WordFor{DropoutPolicy::kEndGroup, "end-group"},
+};
+template <>
+inline constexpr std::array kWordsFor<GroupQuestion::Kind>{WordFor{GroupQuestion::Kind::kLikert, "likert"},
+                                                           WordFor{GroupQuestion::Kind::kText, "text"},
+                                                           WordFor{GroupQuestion::Kind::kChoice, "choice"}};
+
 namespace {
 
 constexpr std::int64_t kMostMembers = 30;
 constexpr std::int64_t kDay = 86'400;
 constexpr std::size_t kMostQuestions = 100;
 
-const std::vector<std::string> kPolicyWords{"pause-then-continue", "continue-now", "replace-from-pool", "simulate",
-                                            "end-group"};
-const std::vector<std::string> kOtherwiseWords{"pause-then-continue", "simulate", "end-group"};
-constexpr std::array kOtherwise{DropoutPolicy::kPauseThenContinue, DropoutPolicy::kSimulate, DropoutPolicy::kEndGroup};
-const std::vector<std::string> kQuestionWords{"likert", "text", "choice"};
+// One of some words of an enumeration; none named: of all.
+template <typename Enum>
+std::optional<Enum> one_of(TomlReader& table, std::string_view key, Presence presence, std::vector<Enum> values = {}) {
+  if (values.empty()) {
+    for (const auto& known : kWordsFor<Enum>) values.push_back(known.value);
+  }
+  std::vector<std::string> words;
+  for (const auto value : values) words.emplace_back(word_for(value));
+  const auto found = table.word(key, presence, words);
+  return found ? std::optional{values[static_cast<std::size_t>(*found)]} : std::nullopt;
+}
 
 template <typename Target, typename Value>
 void take(Target& target, const std::optional<Value>& value) {
@@ -132,12 +153,14 @@ class GroupReader {
 
   void read_dropout(TomlReader& dropout) {
     auto& options = options_.dropout;
-    take(options.policy, dropout.word("policy", Presence::kOptional, kPolicyWords));
+    take(options.policy, one_of<DropoutPolicy>(dropout, "policy", Presence::kOptional));
     take(options.grace_s, dropout.integer("grace_s", Presence::kOptional, {0, kDay}));
     take(options.min_active, dropout.integer("min_active", Presence::kOptional, {1, kMostMembers}));
     take(options.reserves, dropout.integer("reserves", Presence::kOptional, {0, kMostMembers}));
-    const auto otherwise = dropout.word("otherwise", Presence::kOptional, kOtherwiseWords);
-    if (otherwise) options.otherwise = kOtherwise[static_cast<std::size_t>(*otherwise)];
+    const auto otherwise =
+        one_of<DropoutPolicy>(dropout, "otherwise", Presence::kOptional,
+                              {DropoutPolicy::kPauseThenContinue, DropoutPolicy::kSimulate, DropoutPolicy::kEndGroup});
+    take(options.otherwise, otherwise);
     dropout.finish();
     if (otherwise && options.policy != DropoutPolicy::kReplaceFromPool) {
       report_.error("E0422", place_of_key(dropout, "otherwise"),
@@ -197,7 +220,7 @@ class GroupReader {
     const auto errors = report_.num_errors();
     GroupQuestion question;
     take(question.id, table.string("id", Presence::kRequired));
-    take(question.kind, table.word("kind", Presence::kRequired, kQuestionWords));
+    take(question.kind, one_of<GroupQuestion::Kind>(table, "kind", Presence::kRequired));
     take(question.text, table.string("text", Presence::kRequired));
     take(question.options, table.strings("options", Presence::kOptional));
     take(question.low, table.string("low", Presence::kOptional));
@@ -261,9 +284,9 @@ class GroupReader {
 
 }  // namespace
 
-std::string_view name_of(DropoutPolicy policy) noexcept { return kPolicyWords[static_cast<std::size_t>(policy)]; }
+std::string_view name_of(DropoutPolicy policy) noexcept { return word_for(policy); }
 
-std::string_view name_of(GroupQuestion::Kind kind) noexcept { return kQuestionWords[static_cast<std::size_t>(kind)]; }
+std::string_view name_of(GroupQuestion::Kind kind) noexcept { return word_for(kind); }
 
 GroupOptions read_group(TomlReader& group, TomlReport& report) { return GroupReader{group, report}.read(); }
 
