@@ -70,10 +70,24 @@ void Answerer::conclude(StartIndex demo, const std::string& says, const std::opt
 void Answerer::what() {
   const auto world = question_.world.value_or(last_world());
   const auto demo = scene_.needed_start(world);
+  if (!question_.is_about_a_step()) return what_on_the_way(demo);
   reply_.question = "What does it do" + scene_.context() + "?";
   reply_.text = first_upper(scene_.place_text(demo)) + " it " + action_words(scene_.action(atlas_.action(demo))) + ".";
   const auto contrast = scene_.best_step(demo);
   show(demo, because(contrast, "it has no other choice"), contrast);
+}
+
+// The whole path, and what it comes to.
+void Answerer::what_on_the_way(StartIndex demo) {
+  const auto world = atlas_.id(demo).mdp;
+  reply_.question = "What does it do in " + scene_.name_of(world) + "?";
+  reply_.text =
+      "In " + scene_.name_of(world) + " its path has " + counts_text(domain_, atlas_.feature_counts(demo)) + ".";
+  const auto contrast = scene_.any_best_way(demo, [](const Contrast&) { return true; });
+  show(demo,
+       first_upper(actions_text(domain_, world, atlas_.trajectory(demo))) + ": " +
+           because(contrast, "it has no other choice"),
+       contrast);
 }
 
 void Answerer::how_much() {

@@ -33,6 +33,37 @@ std::set<std::string> ContextReader::state_names() const {
   return names;
 }
 
+// The name of the state that the model's files call this.
+std::optional<std::string> ContextReader::state_called(const std::string& key) const {
+  if (map_) return std::nullopt;
+  for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) {
+    for (StateIndex s{0}; s.value() < domain_.mdp(m).num_states(); ++s) {
+      if (domain_.state_key(m, s) == key) return domain_.state_name(m, s);
+    }
+  }
+  return std::nullopt;
+}
+
+bool ContextReader::is_numbered_state(const Token& token) const {
+  static const std::set<std::string> kPlaces{"at", "in", "from", "on", "state", "cell", "square", "field", "number"};
+  const bool follows = at_ >= 2 && kPlaces.count(tokens_[at_ - 2].text) != 0;
+  return follows && token.kind == Token::Kind::kNumber && state_called(token.text).has_value();
+}
+
+std::vector<std::string> ContextReader::drawn_at(std::size_t column, std::size_t row) const {
+  const auto picture = domain_.drawing();
+  std::set<std::string> names;
+  for (MdpIndex m{0}; picture && m.value() < domain_.num_mdps(); ++m) {
+    for (StateIndex s{0}; s.value() < domain_.mdp(m).num_states(); ++s) {
+      const auto robot = picture->state(m, s).robot;
+      const bool is_there =
+          robot.x == static_cast<int>(column) && robot.y == picture->height() + 1 - static_cast<int>(row);
+      if (is_there) names.insert(domain_.state_name(m, s));
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
 void ContextReader::take_state(const Token& token) {
   if (map_) {
     fail_at(token.place, "E1104", "states have no names in a domain with a map",
@@ -42,6 +73,10 @@ void ContextReader::take_state(const Token& token) {
   question_.spot = token.place;
   question_.state = token.text;
   if (names.count(token.text) > 0) return;
+  if (const auto keyed = state_called(token.text)) {
+    question_.state = *keyed;
+    return;
+  }
   // Part of a name will do, if it is part of no other.
   std::vector<std::string> found;
   for (const auto& name : names) {
@@ -66,11 +101,23 @@ Advice ContextReader::hint_of_states(const std::string& name, const std::vector<
   return "its states are " + listed(names);
 }
 
-void ContextReader::take_cell(const Token& token) {
-  if (!map_) {
-    fail_at(token.place, "E1104", "this domain has no map, so there are no cells",
-            Advice{"name a state, in quotes", Remedy::kShowStates});
+void ContextReader::take_drawn_cell(const Token& token) {
+  const auto names = drawn_at(token.number, token.row);
+  if (names.size() == 1) {
+    question_.spot = token.place;
+    question_.state = names.front();
+    return;
   }
+  const auto cell = "(" + std::to_string(token.number) + "," + std::to_string(token.row) + ")";
+  fail_at(token.place, "E1104",
+          !domain_.drawing() ? "this domain has no map, so there are no cells"
+          : names.empty()    ? "no state is drawn at " + cell
+                             : std::to_string(names.size()) + " states are drawn at " + cell,
+          names.empty() ? Advice{"name a state, in quotes", Remedy::kShowStates} : hint_of_states("", names));
+}
+
+void ContextReader::take_cell(const Token& token) {
+  if (!map_) return take_drawn_cell(token);
   const Cell cell{static_cast<int>(token.number), map_->height() + 1 - static_cast<int>(token.row)};
   if (token.number < 1 || token.number > static_cast<std::size_t>(map_->width()) || token.row < 1 ||
       token.row > static_cast<std::size_t>(map_->height())) {

@@ -29,10 +29,16 @@ class ContextReader {
   // "state 0", "state on the bank at a1": the longest stretch of words that is a name, or the next word.
   void take_unquoted_state(const Token& word);
   [[nodiscard]] std::set<std::string> state_names() const;
-  // The name of a state, in models without a map.
+  [[nodiscard]] std::optional<std::string> state_called(const std::string& key) const;
+  // The name of a state, in models without a map, or what the model's files call it.
   void take_state(const Token& token);
+  // Whether a number stands for a state of a model: "at 36", if there is a state 36.
+  [[nodiscard]] bool is_numbered_state(const Token& token) const;
+  // The states that the picture of a model shows in a cell, by name.
+  [[nodiscard]] std::vector<std::string> drawn_at(std::size_t column, std::size_t row) const;
   static Advice hint_of_states(const std::string& name, const std::vector<std::string>& names);
   void take_cell(const Token& token);
+  void take_drawn_cell(const Token& token);
   void take_world(const Token& token);
   void set_world(MdpIndex world);
   void take_item(const Token& token);

@@ -66,17 +66,29 @@ class Parser : private ContextReader {
     settle_value();
   }
 
-  // "how many steps is rubble worth" is about rubble.
+  // "how many steps is rubble worth" is about rubble, "how many steps does it take" about the whole path.
   void drop_what_is_counted(std::size_t begin) {
     auto end = begin;
     while (end < tokens_.size() && !is_auxiliary(tokens_[end].text)) ++end;
     const bool values = std::any_of(tokens_.begin(), tokens_.end(),
                                     [](const Token& token) { return valued(token.text) != Valued::kNo; });
-    if (!values) {
-      fail_at({1, 3}, "E1102", "a question with 'how' begins with 'how much' or 'how often'", kForms);
+    bool counts_something = values;
+    for (auto i = begin; i < end; ++i) {
+      const auto& word = tokens_[i];
+      const bool is_known = lexicon_.knows(word.text) || word.text == "moves";
+      counts_something = counts_something || is_known;
+      if (!values && !is_known && !is_filler(word.text))
+        fail_unknown(lexicon_, text_, word.text, word.place, lexicon_.all_words());
     }
+    if (!counts_something)
+      fail_at({1, 3}, "E1102", "a question with 'how' begins with 'how much' or 'how often'", kForms);
     tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
                   tokens_.begin() + static_cast<std::ptrdiff_t>(end));
+    // "how many steps would it go to avoid rubble": what that is worth.
+    static const std::set<std::string> kSpares{"avoid", "avoiding", "around", "bypass", "skip"};
+    const auto spares = [&](const Token& token) { return !values && kSpares.count(token.text) != 0; };
+    counts_ = std::erase_if(tokens_, spares) == 0 && !values;
+    if (counts_) question_.kind = Kind::kWhat;
   }
 
   // The verb with which a question begins, if it stands before any question word: "does it recharge".
@@ -174,6 +186,9 @@ class Parser : private ContextReader {
 
   // What a question turns out to be once all of it is read.
   void settle_kind() {
+    if (question_.kind == Kind::kWhatIf && question_.world && question_.conditions.empty()) {
+      question_.kind = Kind::kWhat;  // "what does it do when the lift is broken", of a world that is called so
+    }
     const bool is_feature = question_.happening && !question_.happening->action && !question_.instead;
     if (question_.kind == Kind::kWhy && values_ && is_feature && !question_.is_about_a_step()) {
       question_.kind = Kind::kHowMuch;  // "why does it mind rubble": the reward is what there is to tell
@@ -202,7 +217,7 @@ class Parser : private ContextReader {
     if (token.kind == Token::Kind::kName) return take_state(token);
     if (word == "world" || word == "mdp") return take_world(token);
     if (word == "state" && !map_ && !lexicon_.knows(word)) return take_unquoted_state(token);
-    if (word == "column" && map_ && take_column_and_row(token)) return;
+    if (word == "column" && has_cells() && take_column_and_row(token)) return;
     if (token.kind == Token::Kind::kNumber) return take_number(token);
     static const std::set<std::string> kCarries{"carrying", "carries", "carry", "holding", "holds", "hold"};
     const bool has_item =
@@ -221,6 +236,8 @@ class Parser : private ContextReader {
       negated_ = begins_second;
       return;
     }
+    if ((word == "when" || word == "if") && is_world_next()) return;
+    if ((word == "when" || word == "if") && begins_condition()) return begin_condition();
     const bool asks_again = word == "when" || word == "where" || word == "why";
     const bool has_asked = question_.happening || question_.instead || !phrase_.empty();
     const bool follows_up = question_.kind == Kind::kWhatIf || question_.is_about_a_step() || values_;
@@ -240,8 +257,11 @@ class Parser : private ContextReader {
     const bool is_place = token.kind != Token::Kind::kWord && token.kind != Token::Kind::kNumber;
     const bool says_state = token.text == "state" && !map_ && !lexicon_.knows(token.text);
     return is_place || token.text == "world" || token.text == "mdp" || token.text == "carrying" || says_state ||
-           (token.text == "column" && map_);
+           (token.text == "column" && has_cells()) || is_numbered_state(token);
   }
+
+  // Whether people see cells.
+  [[nodiscard]] bool has_cells() const { return domain_.drawing().has_value(); }
 
   void deny(const std::string& word) {
     if (stem(word) == "around") drop_verbs_of_motion();
@@ -282,10 +302,12 @@ class Parser : private ContextReader {
     return lexicon_.names_something(tokens_[next].text);
   }
 
-  void take_number(const Token& token) const {
+  void take_number(const Token& token) {
+    if (is_numbered_state(token)) return take_state(token);
     if (question_.kind == Kind::kHowMuch) return;
     fail_at(token.place, "E1103", "it is not clear what the number " + token.text + " stands for",
-            "write 'world " + token.text + "', or a cell as (COLUMN,ROW)");
+            "write 'world " + token.text + "'" +
+                (map_ ? ", or a cell as (COLUMN,ROW)" : ", or 'state " + token.text + "'"));
   }
 
   // Words that hold a question together, whatever words a domain uses.
@@ -307,6 +329,38 @@ class Parser : private ContextReader {
                                                  "appears", "appear",  "find",      "finds"};
     if (values_ && valued(word) != Valued::kNo) return true;
     return question_.kind == Kind::kWhatIf && kOfThings.count(word) != 0;
+  }
+
+  // "does it climb when the lift is broken", of a world that is called so.
+  [[nodiscard]] bool is_world_next() const {
+    auto next = at_;
+    while (next < tokens_.size() && tokens_[next].kind == Token::Kind::kWord && is_filler(tokens_[next].text)) ++next;
+    return next < tokens_.size() && tokens_[next].kind == Token::Kind::kWorld;
+  }
+
+  // "does it climb if there is no lift": whether all that follows says that a world has or lacks an optional thing.
+  [[nodiscard]] bool begins_condition() const {
+    const bool has_asked = !phrase_.empty() || question_.happening || question_.instead;
+    const bool may_turn = question_.kind == Kind::kWhat || (question_.kind == Kind::kWhen && has_asked);
+    bool names_thing = false, says_so = false;
+    for (auto i = at_; i < tokens_.size() && tokens_[i].text != "in"; ++i) {
+      const auto& word = tokens_[i].text;
+      const bool is_thing = lexicon_.optional_thing(word).has_value();
+      const bool says_here = denies(word) || is_gone(word) || word == "there";
+      if (!is_thing && !says_here && !is_filler(word)) return false;
+      names_thing = names_thing || is_thing;
+      says_so = says_so || says_here;
+    }
+    return may_turn && !question_.is_about_a_step() && names_thing && says_so;
+  }
+
+  // What it does then is told by what the condition changes.
+  void begin_condition() {
+    close_phrase();
+    question_.kind = Kind::kWhatIf;
+    question_.happening.reset();
+    question_.instead.reset();
+    negated_ = false;
   }
 
   [[nodiscard]] bool names_item_next() const {
@@ -331,21 +385,21 @@ class Parser : private ContextReader {
     phrase_.clear();
   }
 
-  // "there is no charger", "the charger is gone", "we remove the charger".
-  void take_condition(const Place& place) {
+  [[nodiscard]] static bool is_gone(const std::string& word) {
     static const std::set<std::string> kGone{"gone",        "missing", "removed", "remove",   "absent",
                                              "cleared",     "broken",  "deleted", "vanished", "disappear",
                                              "disappeared", "lacking", "less"};
-    bool is_gone = false;
-    std::erase_if(phrase_, [&](const Word& word) {
-      is_gone = is_gone || kGone.count(word.text) != 0;
-      return kGone.count(word.text) != 0;
-    });
+    return kGone.count(word) != 0;
+  }
+
+  // "there is no charger", "the charger is gone", "we remove the charger".
+  void take_condition(const Place& place) {
+    const bool says_gone = std::erase_if(phrase_, [](const Word& word) { return is_gone(word.text); }) > 0;
     if (phrase_.empty()) {
-      if (is_gone && !question_.conditions.empty()) question_.conditions.back().present = false;
+      if (says_gone && !question_.conditions.empty()) question_.conditions.back().present = false;
       return;
     }
-    question_.conditions.push_back({!(negated_ || is_gone), thing_of_phrase(place), std::nullopt, place});
+    question_.conditions.push_back({!(negated_ || says_gone), thing_of_phrase(place), std::nullopt, place});
   }
 
   [[nodiscard]] bool is_item(const std::vector<Word>& words) const {
@@ -443,7 +497,8 @@ class Parser : private ContextReader {
       fail_at(extra->place, "E1106", "'what' asks for the next step and takes only a cell, an item and a world",
               "ask 'when' or 'why' about " + lexicon_.name_of(*extra));
     }
-    if (!question_.is_about_a_step()) fail_at(whole, "E1106", "what does it do where?", kForms);
+    const bool is_about_a_path = counts_ || question_.world || domain_.num_mdps() == 1;
+    if (!question_.is_about_a_step() && !is_about_a_path) fail_at(whole, "E1106", "what does it do where?", kForms);
   }
 
   void check_how_much() const {
@@ -473,6 +528,7 @@ class Parser : private ContextReader {
   bool after_instead_ = false;
   bool removes_ = false;        // "what difference does ... make"
   bool values_ = false;         // it is about what something is worth
+  bool counts_ = false;         // "how many steps does it take"
   std::size_t negated_at_ = 0;  // position of the last word that denied
   std::vector<Word> phrase_;
 };

@@ -5,6 +5,8 @@
 #include <optional>
 #include <set>
 
+#include "question_words.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -95,14 +97,18 @@ bool introduces_world(const std::vector<Token>& tokens, std::size_t begin) {
   return begin > 0 && kWords.count(tokens[begin - 1].text) != 0;
 }
 
-bool stands_at(const std::vector<std::string>& words, const std::vector<Token>& tokens, std::size_t begin) {
-  if (words.empty() || begin + words.size() > tokens.size()) return false;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const auto kind = tokens[begin + i].kind;
-    const bool is_plain = kind == Token::Kind::kWord || kind == Token::Kind::kNumber;
-    if (!is_plain || tokens[begin + i].text != words[i]) return false;
+// Behind the name, if it begins here: "lift broken", or as people put it into a sentence, "lift is broken".
+std::optional<std::size_t> end_of_world(const std::vector<std::string>& words, const std::vector<Token>& tokens,
+                                        std::size_t begin) {
+  auto at = begin;
+  for (const auto& word : words) {
+    while (at > begin && at < tokens.size() && tokens[at].text != word && is_auxiliary(tokens[at].text)) ++at;
+    const bool is_plain =
+        at < tokens.size() && (tokens[at].kind == Token::Kind::kWord || tokens[at].kind == Token::Kind::kNumber);
+    if (!is_plain || tokens[at].text != word) return std::nullopt;
+    ++at;
   }
-  return true;
+  return words.empty() ? std::nullopt : std::optional{at};
 }
 
 bool is_state(const Domain& domain, const std::string& name) {
@@ -136,13 +142,14 @@ std::vector<Token> with_world_names(const Domain& domain, std::vector<Token> tok
       continue;
     }
     for (const auto& name : names) {
-      if (!stands_at(name.words, tokens, i) || (name.words.size() == 1 && !introduces_world(tokens, i))) continue;
-      const auto& last = tokens[i + name.words.size() - 1].place;
+      const auto end = end_of_world(name.words, tokens, i);
+      if (!end || (name.words.size() == 1 && !introduces_world(tokens, i))) continue;
+      const auto& last = tokens[*end - 1].place;
       tokens[i].kind = Token::Kind::kWorld;
       tokens[i].number = name.world;
       tokens[i].place.length = last.column + last.length - tokens[i].place.column;
       const auto next = tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-      tokens.erase(next, next + static_cast<std::ptrdiff_t>(name.words.size()) - 1);
+      tokens.erase(next, tokens.begin() + static_cast<std::ptrdiff_t>(*end));
       break;
     }
   }

@@ -27,6 +27,7 @@ struct Asked {
 
 std::string file_of(const std::string& domain) {
   if (domain == "hospital") return kQuestions + "hospital.toml";
+  if (domain == "cliff") return std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
   if (domain == "icy-crossing") return std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
   return domain;
 }
