@@ -6,7 +6,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -16,17 +15,10 @@
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/toml/document.hpp"
+#include "kith/toml/file.hpp"
 
 namespace kith::cli {
 namespace {
-
-std::string text_of(std::istream& stream, const std::string& name) {
-  std::string text(kMaxTomlBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) throw Error{ErrorKind::kIo, "cannot read " + name};
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
-}
 
 // Up to so many bytes of standard input. Not by std::cin, which takes an error for the end.
 std::string standard_input(std::size_t most) {
@@ -47,12 +39,9 @@ std::string standard_input(std::size_t most) {
 
 InputText read_input(const std::string& file) {
   if (file == "-") return {"<stdin>", standard_input(kMaxTomlBytes + 1), {}};
-  std::error_code failure;
-  if (std::filesystem::is_directory(file, failure))
-    throw Error{ErrorKind::kIo, "cannot read " + file + ": it is a folder"};
-  std::ifstream stream{file, std::ios::binary};
-  if (!stream) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + std::generic_category().message(errno)};
-  return {file, text_of(stream, file), std::filesystem::path{file}.parent_path()};
+  const auto text = read_toml_text(file);
+  if (!text) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + why_unreadable(file)};
+  return {file, *text, std::filesystem::path{file}.parent_path()};
 }
 
 InputText read_named(const std::string& name_or_file) {

@@ -12,6 +12,7 @@
 #include "family.hpp"
 #include "kith/core/error.hpp"
 #include "kith/toml/document.hpp"
+#include "kith/toml/file.hpp"
 #include "kith/toml/reader.hpp"
 #include "read_model.hpp"
 #include "reward.hpp"
@@ -293,16 +294,11 @@ DomainReading parse_unweighed_domain(std::string_view text, const std::string& n
 }
 
 DomainReading read_domain(const std::filesystem::path& path) {
-  std::error_code failure;
-  std::ifstream in{path, std::ios::binary};
-  // At most one byte more than is parsed, so that too large a file is told from the right size.
-  std::string text(kMaxTomlBytes + 1, '\0');
-  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!in.is_open() || in.bad() || std::filesystem::is_directory(path, failure)) {
-    throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string()};
+  const auto text = read_toml_text(path);
+  if (!text) {
+    throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string() + ": " + why_unreadable(path)};
   }
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return parse_domain(text, path.string(), {}, {.folder = path.parent_path()});
+  return parse_domain(*text, path.string(), {}, {.folder = path.parent_path()});
 }
 
 Domain load_domain(const std::string& name_or_path) {

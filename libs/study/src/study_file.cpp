@@ -1,13 +1,13 @@
 #include "kith/study/study_file.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/toml/document.hpp"
+#include "kith/toml/file.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {
@@ -15,19 +15,6 @@ namespace {
 
 constexpr std::size_t kMaxVariants = 10'000;
 constexpr std::size_t kMaxCells = 1'000'000;
-
-// At most one byte more than is parsed, so that too large a file is told from the right size.
-std::optional<std::string> text_of(const std::filesystem::path& path) {
-  std::error_code failure;
-  if (std::filesystem::is_directory(path, failure)) return std::nullopt;
-  std::ifstream file{path, std::ios::binary};
-  if (!file) return std::nullopt;
-  std::string text(kMaxTomlBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) return std::nullopt;
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
 
 // One varied key: its dotted name, and the values it takes.
 struct Factor {
@@ -70,7 +57,7 @@ class StudyParser {
     // files that are meant to be read so are opened, so that none can be made to show others.
     std::error_code failure;
     const bool may_be_domain = path.extension() == ".toml" && std::filesystem::is_regular_file(path, failure);
-    if (auto text = may_be_domain ? text_of(path) : std::nullopt) {
+    if (auto text = may_be_domain ? read_toml_text(path) : std::nullopt) {
       take_domain(*std::move(text), path.string(), {.folder = path.parent_path()});
       return;
     }
@@ -310,12 +297,10 @@ StudyReading load_study(const std::string& name_or_path, StudyReadOptions option
     unknown.hint = suggestion(name_or_path, names);
     throw Error{{unknown}};
   }
-  if (std::filesystem::is_directory(path, failure)) {
-    throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "': it is a folder"};
+  const auto text = read_toml_text(path);
+  if (!text) {
+    throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "': " + why_unreadable(path)};
   }
-
-  const auto text = text_of(path);
-  if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "'"};
   options.folder = path.parent_path();
   return parse_study(*text, name_or_path, options);
 }

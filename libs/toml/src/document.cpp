@@ -80,7 +80,9 @@ TomlAssignmentParsing parse_assignment(std::string_view text, const std::string&
   }
   TomlParsing parsing = parse_toml(text, name);
   if (!parsing.document) {
-    for (Diagnostic& d : parsing.diagnostics) d.hint = form;
+    for (Diagnostic& d : parsing.diagnostics) {
+      if (d.id != "E0110") d.hint = form;
+    }
     return {std::nullopt, std::move(parsing.diagnostics)};
   }
   if (parsing.document->root.entries().size() != 1) return refuse({0, 1, 1, 1}, "not an assignment KEY=VALUE");

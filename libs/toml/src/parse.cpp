@@ -91,6 +91,20 @@ void point_at_key(Diagnostic& d, const std::string& message) {
   d.length = key.size();
 }
 
+// "'99999999999999999999' is not representable in 64 bits", said at its end.
+void tell_range(Diagnostic& d) {
+  const auto open = d.message.find('\''), close = d.message.find('\'', open + 1);
+  const auto number = d.message.substr(open + 1, close - open - 1);
+  d.id = "E0110";
+  d.message = "the number is too large: whole numbers go from -9223372036854775808 to 9223372036854775807";
+  d.hint = "write a number in this range, or a real number such as 1e20";
+  const auto at = d.source_line.rfind(number, d.column);
+  if (at == std::string::npos) return;
+  const std::size_t sign = at > 0 && (d.source_line[at - 1] == '-' || d.source_line[at - 1] == '+') ? 1 : 0;
+  d.column = at + 1 - sign;
+  d.length = number.size() + sign;
+}
+
 // toml++ places the end of a text that ends with a line break beyond that line.
 TomlPlace within_line(const TomlSource& source, TomlPlace place) {
   const auto line = source.line(place.line);
@@ -117,6 +131,8 @@ Diagnostic from_parse_error(const TomlSource& source, const ::toml::parse_error&
   if (twice) {
     point_at_key(d, message);
     d.hint = "keep one of them";
+  } else if (has("not representable in 64 bits")) {
+    tell_range(d);
   } else if (no_value) {
     d.hint = "text needs \"quotes\"";
   }

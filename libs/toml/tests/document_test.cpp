@@ -75,6 +75,15 @@ TEST(ParseToml, RefusesSyntaxErrorsAtTheirPlace) {
   EXPECT_EQ(refusal("a = \"\xFF\"\n").substr(0, 5), "E0101");
 }
 
+TEST(ParseToml, NamesTheRangeOfANumberThatIsTooLarge) {
+  EXPECT_EQ(refusal("a = 1\nb = 99999999999999999999 # much\n"), "E0110 2:5");
+  EXPECT_EQ(refusal("a = [1, -99999999999999999999]\n"), "E0110 1:9");
+  const auto assigned = parse_assignment("a=99999999999999999999", "--set");
+  ASSERT_EQ(assigned.diagnostics.size(), 1u);
+  EXPECT_NE(assigned.diagnostics[0].message.find("9223372036854775807"), std::string::npos);
+  EXPECT_EQ(assigned.diagnostics[0].hint.find("KEY=VALUE"), std::string::npos);
+}
+
 TEST(ParseToml, PointsAtTheSecondOfTwoEqualKeys) {
   EXPECT_EQ(refusal("a = 1\nbc = 2\nbc = 3\n"), "E0102 3:1");
   EXPECT_EQ(refusal("t = { b = 1, b = 2 }\n"), "E0102 1:14");
