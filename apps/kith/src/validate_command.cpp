@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
@@ -91,7 +92,9 @@ int run(const ValidateOptions& options, Console& console) {
     if (!has_errors(verdict.diagnostics)) {
       text += fmt::format("{}: {} '{}' is valid ({})\n", file, verdict.kind, verdict.id, verdict.content);
     }
-    all.insert(all.end(), verdict.diagnostics.begin(), verdict.diagnostics.end());
+    for (const auto& diagnostic : verdict.diagnostics) {  // of a domain and of a study of it, once
+      if (std::find(all.begin(), all.end(), diagnostic) == all.end()) all.push_back(diagnostic);
+    }
   }
   if (console.json()) {
     if (has_errors(all)) throw Error{all};

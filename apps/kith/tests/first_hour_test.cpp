@@ -45,8 +45,27 @@ TEST(FirstHour, MessagesShowTheMend) {
   EXPECT_THAT(table.err,
               AllOf(HasSubstr("'ability' must be a table"), HasSubstr("write ability = { mean = 0.7, sd = ")));
   EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--set", "replicates=1000000"}).out, HasSubstr("GB on disk"));
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--set", "learner.N.correct_gain=0.05"}).err,
+              HasSubstr("write correct_gain = { value = 0.05 } for everybody"));
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--set", "seed=99999999999999999999999"}).err,
+              AllOf(HasSubstr("E0110"), HasSubstr("9223372036854775807")));
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--seed", "99999999999999999999999"}).err,
+              HasSubstr("from 0 to 9223372036854775807"));
+  EXPECT_THAT(run_kith({"teach", "item-delivery", "--group", "nnp"}).err, HasSubstr("did you mean --group NNP?"));
   const auto none = run_kith({"find", "item-delivery", "(1,1,0)", "--no-make"});
   EXPECT_THAT(none.err, HasSubstr("without --no-make a world is made"));
+}
+
+TEST(FirstHour, AFolderInPlaceOfAFileNamesTheFilesInIt) {
+  const Scratch scratch;
+  const auto folder = scratch / "robot";
+  ASSERT_EQ(run_kith({"init", folder}).code, 0);
+  for (const auto& args : std::vector<std::vector<std::string>>{{"inspect", folder},
+                                                                {"teach", folder, "--group", "NP"},
+                                                                {"validate", folder},
+                                                                {"study", folder, "-o", "x"}}) {
+    EXPECT_THAT(run_kith(args).err, AllOf(HasSubstr("it is a folder"), HasSubstr(folder + "/domain.toml"))) << args[0];
+  }
 }
 
 }  // namespace

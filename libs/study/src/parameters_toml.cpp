@@ -99,6 +99,14 @@ class ParametersReader {
   }
 
   void read_spread(TomlReader& table, std::string_view key, Presence presence, const Parameter& parameter) {
+    if (const auto* value = table.content().find(key); value != nullptr && value->is_number()) {
+      table.know(key);
+      const auto name = std::string{key}, number = to_toml(*value);
+      return table.report().error("E0108", value->place(),
+                                  "'" + name + "' must be a table, not " + std::string{value->kind_name()},
+                                  "write " + name + " = { value = " + number + " } for everybody, or " + name +
+                                      " = { half_normal = " + number + " } to draw it for each person");
+    }
     auto reader = table.table(key, presence);
     if (!reader) return;
     const RealRange range{parameter.min, parameter.max, parameter.min_is_open, parameter.max_is_open};
