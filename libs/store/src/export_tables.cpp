@@ -1,5 +1,6 @@
 #include "export_tables.hpp"
 
+#include "kith/study/record_columns.hpp"
 #include "kith/table/column_names.hpp"
 
 namespace kith {
@@ -98,7 +99,7 @@ void declare(TableOf<TestRow>& table, const SessionExportOptions& options) {
       .column(&R::type, {kType, "Letter of the learner type."})
       .column(&R::strategy, {kStrategy, "Strategy of the room."})
       .column(&R::mdp, {kMdp, "Number of the world."});
-  if (options.with_world_names) table.column(&R::mdp_name, {"mdp_name", "Its name; missing if it has none."});
+  if (options.with_world_names) table.column(&R::mdp_name, kOfWorld);
   table.column(&R::start, {kStart, "State in which the test begins."})
       .column(&R::path, {"path",
                          "Names of the actions of the answer, separated by blanks; ... behind them if they go on like "
