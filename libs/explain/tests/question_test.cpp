@@ -8,6 +8,7 @@
 #include "atlases.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/contrast.hpp"
+#include "lake.hpp"
 
 namespace kith {
 namespace {
@@ -277,7 +278,10 @@ TEST(AskOfAModel, NeedsTheNamesOfItsStates) {
   const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
   EXPECT_THAT(complaint("what at 'hill'", pond), HasSubstr("E1104 10: there is no state 'hill'"));
   EXPECT_THAT(complaint("what at 'ice'", pond), HasSubstr("E1104 10: 'ice' could be "));
-  EXPECT_THAT(complaint("what at (1,1)", pond), HasSubstr("E1104 10: this domain has no map"));
+  EXPECT_EQ(complaint("what at (1,1)", pond), "answered") << "its picture shows a state there";
+  EXPECT_THAT(complaint("what at (9,1)", pond), HasSubstr("E1104 10: no state is drawn at (9,1)"));
+  EXPECT_THAT(complaint("what at (1,1)", testing::slippery_lake("undrawn", "{ step = -1 }", "0.95")),
+              HasSubstr("E1104 10: this domain has no map"));
   EXPECT_THAT(complaint("what if no ice", pond), HasSubstr("E1108 12: "));
   EXPECT_THAT(complaint("what at 'a1'"), HasSubstr("E1104 10: states have no names in a domain with a map"));
 }
