@@ -252,10 +252,15 @@ class Fitting {
       sum += table_.standard_error[i][best];
       largest = std::max(largest, table_.standard_error[i][best]);
     }
-    report_.sentences.push_back("Monte-Carlo error of a person's log-likelihood at its largest: " +
-                                figure(sum / static_cast<double>(logs_.people.size()), 2) + " on average, at most " +
-                                figure(largest, 2) + " (standard error over " + std::to_string(options_.replicates) +
-                                " replicates)");
+    const double mean = sum / static_cast<double>(logs_.people.size());
+    report_.sentences.push_back("Monte-Carlo error of a person's log-likelihood at its largest: " + figure(mean, 2) +
+                                " on average, at most " + figure(largest, 2) + " (standard error over " +
+                                std::to_string(options_.replicates) + " replicates)");
+    constexpr double kTolerable = 0.3;  // docs/fitting.md has figures below and above it
+    if (mean <= kTolerable) return;
+    report_.sentences.push_back(
+        "that is too noisy: abilities come out too low, and intervals too narrow; give more --replicates, or run "
+        "studies with more particles");
   }
 
   void compare_models() {
