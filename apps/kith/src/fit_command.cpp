@@ -121,7 +121,7 @@ int predict(const FitCommandOptions& options, Console& console) {
     refuse("--predict needs the folder with the tables of 2021, and nothing else");
   }
   watch_signals();
-  Progress progress{options.progress, console};
+  Progress progress{options.progress, console, "people"};
   const auto report =
       predict_answers(read_lee2021_worlds(folder / "lee2021_test_mdps.jsonl"), read_lee2021_responses(responses),
                       {.threads = options.threads, .on_progress = progress.until_stopped()});
@@ -179,7 +179,8 @@ int run(const FitCommandOptions& options, Console& console) {
   const auto report = fit_learners(logs, fit_options);
   progress.finish();
   if (!report.complete) return interrupted("interrupted; nothing was written", console);
-  return finish(options, to_json(report, logs.notes), text_of(report, console), console);
+  const auto recovered = recovery(logs, report);
+  return finish(options, to_json(report, recovered, logs.notes), text_of(report, recovered, console), console);
 }
 
 }  // namespace

@@ -75,12 +75,23 @@ Json person_to_json(const PersonReport& person) {
 
 }  // namespace
 
-Json to_json(const FitReport& report, const std::vector<Diagnostic>& notes) {
+Json to_json(const FitReport& report, const std::vector<ParameterRecovery>& recovered,
+             const std::vector<Diagnostic>& notes) {
   Json document{{"schema", kSchema}, {"method", "likelihood"}};
   document["types"] = Json::array();
   for (const auto& type : report.types) document["types"].push_back(type_to_json(type));
   document["people"] = Json::array();
   for (const auto& person : report.people) document["people"].push_back(person_to_json(person));
+  if (!recovered.empty()) document["recovery"] = Json::array();
+  for (const auto& one : recovered) {
+    document["recovery"].push_back({{"parameter", one.name},
+                                    {"truth", one.truth},
+                                    {"estimate", one.estimate},
+                                    {"error", one.error},
+                                    {"error_se", one.error_se},
+                                    {"held", one.held},
+                                    {"people", one.people}});
+  }
   document["cross_validation"] = Json::array();
   for (const auto& model : report.cross_validation) {
     document["cross_validation"].push_back({{"model", model.model},

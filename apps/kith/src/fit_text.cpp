@@ -94,6 +94,23 @@ std::string people(const FitReport& report, const Console& console) {
   return text;
 }
 
+std::string recovery_text(const std::vector<ParameterRecovery>& recovered, const Console& console) {
+  if (recovered.empty()) return "";
+  TextTable table{"lrrrrr"};
+  table.add({"parameter", "true mean", "estimated", "error", "se", "held"});
+  for (const auto& one : recovered) {
+    table.add({one.name, fmt::format("{:.3f}", one.truth), fmt::format("{:.3f}", one.estimate),
+               fmt::format("{:+.3f}", one.error), fmt::format("{:.3f}", one.error_se),
+               fmt::format("{} of {}", one.held, one.people)});
+  }
+  return "\n" + console.bold("Recovery") + ": these people are simulated, so the truth is known\n" +
+         table.text(console) +
+         console.dim(
+             "error: of people's posterior means, with its standard error over people, which has no part of "
+             "what\nthey share (the population's estimates); held: true values within the 95 % interval") +
+         "\n";
+}
+
 std::string models(const FitReport& report, const Console& console) {
   if (report.cross_validation.empty()) return "";
   TextTable table{"lrrr"};
@@ -114,9 +131,9 @@ char letter_of(const TypeReport& type, std::size_t k) {
 
 }  // namespace
 
-std::string text_of(const FitReport& report, const Console& console) {
+std::string text_of(const FitReport& report, const std::vector<ParameterRecovery>& recovered, const Console& console) {
   auto text = populations(report, console) + maxima(report, console) + what_can_be_told(report, console) +
-              models(report, console) + people(report, console);
+              models(report, console) + recovery_text(recovered, console) + people(report, console);
   text += "\n" + console.bold("For a study file") + "\n";
   for (std::size_t k = 0; k < report.types.size(); ++k) {
     text += (k == 0 ? "" : "\n") + learner_section(letter_of(report.types[k], k), report.types[k]);

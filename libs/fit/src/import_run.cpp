@@ -183,7 +183,10 @@ class RunImport {
     read_table(file,
                {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kMember, ColumnType::kInteger),
                 needed(columns::kType, ColumnType::kText)},
-               {}, logs_.notes, [&](const OpenRow& row) {
+               {{.name = "ability", .type = ColumnType::kReal},
+                {.name = "confirm_gain", .type = ColumnType::kReal},
+                {.name = "correct_gain", .type = ColumnType::kReal}},
+               logs_.notes, [&](const OpenRow& row) {
                  if (!check_team(file, row)) return;
                  const auto type = *row.text(columns::kType);
                  const auto variant = addresses_[static_cast<std::size_t>(*row.integer(columns::kTeam)) - 1].variant;
@@ -191,7 +194,11 @@ class RunImport {
                    complain(file, row.line(), "E0708", "there is no learner type '" + type + "' in inputs/study.toml");
                    return;
                  }
-                 types_[{*row.integer(columns::kTeam), *row.integer(columns::kMember)}] = type;
+                 const Seat seat{*row.integer(columns::kTeam), *row.integer(columns::kMember)};
+                 types_[seat] = type;
+                 const auto ability = row.real("ability"), confirm = row.real("confirm_gain"),
+                            correct = row.real("correct_gain");
+                 if (ability && confirm && correct) truths_[seat] = {*ability, *confirm, *correct};
                });
   }
 
@@ -283,6 +290,7 @@ class RunImport {
     person.id = std::to_string(seat.team) + "/" + std::to_string(seat.member);
     person.type = type;
     person.model = models_of_[variant].at(type[0]);
+    if (const auto truth = truths_.find(seat); truth != truths_.end()) person.truth = truth->second;
     const auto alone = shown_.find(seat);
     const auto together = shown_.find({seat.team, 0});
     const auto& shown = alone != shown_.end()      ? alone->second
@@ -393,6 +401,7 @@ class RunImport {
   std::vector<TeamAddress> addresses_;
   std::vector<std::map<char, std::size_t>> models_of_;  // per variant
   std::map<Seat, std::string> types_;
+  std::map<Seat, TrueParameters> truths_;
   std::map<Seat, std::map<std::int64_t, Shown>> shown_;
   std::map<Seat, std::map<std::int64_t, std::vector<Answered>>> answers_;
   std::vector<bool> last_;  // answers of the person at hand, in order

@@ -42,6 +42,12 @@ std::optional<std::int64_t> OpenRow::integer(const std::string& column) const {
   return number == nullptr ? std::nullopt : std::optional{*number};
 }
 
+std::optional<double> OpenRow::real(const std::string& column) const {
+  const auto* value = cell(column);
+  const auto* number = value == nullptr ? nullptr : std::get_if<double>(value);
+  return number == nullptr ? std::nullopt : std::optional{*number};
+}
+
 std::optional<bool> OpenRow::boolean(const std::string& column) const {
   const auto* value = cell(column);
   const auto* flag = value == nullptr ? nullptr : std::get_if<bool>(value);

@@ -22,6 +22,7 @@ class OpenRow {
   // The cell's value; nothing if it, or its column, is missing.
   [[nodiscard]] std::optional<std::string> text(const std::string& column) const;
   [[nodiscard]] std::optional<std::int64_t> integer(const std::string& column) const;
+  [[nodiscard]] std::optional<double> real(const std::string& column) const;
   [[nodiscard]] std::optional<bool> boolean(const std::string& column) const;
 
  private:

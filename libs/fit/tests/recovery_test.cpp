@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kith/fit/answer_regions.hpp"
 #include "kith/fit/fit.hpp"
+#include "kith/fit/recovery.hpp"
 #include "simulated_people.hpp"
 
 namespace kith {
@@ -13,27 +16,6 @@ constexpr const char* kLongSessions =
     "[learner.N]\nability = { mean = 0.72, sd = 0.05, min = 0.55 }\nconfirm_gain = { half_normal = 0.02 }\n"
     "correct_gain = { half_normal = 0.08 }\ngain_max = 0.16\nordered_gains = false\nparticles = 200\n";
 
-struct Covered {
-  int ability = 0;
-  int confirm_gain = 0;
-  int correct_gain = 0;
-};
-
-bool within(double value, const ParameterPosterior& posterior) {
-  return posterior.lower <= value && value <= posterior.upper;
-}
-
-Covered covered(const FitReport& report, const std::vector<BayesianPerson>& truth) {
-  Covered result;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const auto& posterior = report.people[i].posterior;
-    result.ability += within(truth[i].ability, posterior.ability) ? 1 : 0;
-    result.confirm_gain += within(truth[i].confirm_gain, posterior.confirm_gain) ? 1 : 0;
-    result.correct_gain += within(truth[i].correct_gain, posterior.correct_gain) ? 1 : 0;
-  }
-  return result;
-}
-
 void expect_within(double value, const FitInterval& interval, const char* what) {
   EXPECT_TRUE(interval.lower_open || interval.lower <= value) << what << " " << interval.lower;
   EXPECT_TRUE(interval.upper_open || value <= interval.upper) << what << " " << interval.upper;
@@ -41,16 +23,15 @@ void expect_within(double value, const FitInterval& interval, const char* what) 
 
 // Of 60 intervals of 95 % at least 51 hold the truth, but for one case in 900: P(X <= 50) for X ~ B(60, 0.95) is
 // 0.0009.
-constexpr int kFewestOf60 = 51;
+constexpr std::size_t kFewestOf60 = 51;
 
 void expect_recovery(const FitOptions& options) {
   const auto people = testing::simulate(testing::study_text("N", 60, kLongSessions));
   ASSERT_EQ(people.logs.people.size(), 60u);
   const auto report = fit_learners(people.logs, options);
-  const auto hits = covered(report, people.truth);
-  EXPECT_GE(hits.ability, kFewestOf60);
-  EXPECT_GE(hits.confirm_gain, kFewestOf60);
-  EXPECT_GE(hits.correct_gain, kFewestOf60);
+  const auto recovered = recovery(people.logs, report);
+  ASSERT_EQ(recovered.size(), 3u);
+  for (const auto& parameter : recovered) EXPECT_GE(parameter.held, kFewestOf60) << parameter.name;
   ASSERT_EQ(report.types.size(), 1u);
   const auto& fit = report.types[0].fit;
   expect_within(0.72, fit.ability_mean, "mean");
@@ -136,7 +117,8 @@ std::string people_of(const std::string& domain) {
 
 // Of 24 intervals of 95 % at least 19 hold the truth, but for one case in 150: P(X <= 18) for X ~ B(24, 0.95) is
 // 0.0007, and 0.006 at the 93 % that an average over two runs of the filter leaves.
-TEST(RecoverySlow, PeopleComeBackInDomainsOfMoreThanThreeFeatures) {
+// Where the likelihood is too noisy for that, the report must say so.
+TEST(RecoverySlow, PeopleComeBackInDomainsOfMoreThanThreeFeaturesOrTheReportWarns) {
   const auto hospital = std::string{KITH_SOURCE_DIR} + "/libs/explain/tests/questions/hospital.toml";
   for (const auto& domain : {std::string{"navigation"}, hospital, std::string{"warehouse"}}) {
     auto people = testing::simulate(people_of(domain));
@@ -147,10 +129,14 @@ TEST(RecoverySlow, PeopleComeBackInDomainsOfMoreThanThreeFeatures) {
     options.num_gains = 3;
     options.num_draws = 40;
     const auto report = fit_learners(people.logs, options);
-    const auto hits = covered(report, people.truth);
-    EXPECT_GE(hits.ability, 19) << domain;
-    EXPECT_GE(hits.confirm_gain, 19) << domain;
-    EXPECT_GE(hits.correct_gain, 19) << domain;
+    const bool is_too_noisy = std::any_of(report.sentences.begin(), report.sentences.end(), [](const auto& sentence) {
+      return sentence.find("that is too noisy") != std::string::npos;
+    });
+    EXPECT_FALSE(is_too_noisy && domain == hospital);
+    if (is_too_noisy) continue;
+    const auto recovered = recovery(people.logs, report);
+    ASSERT_EQ(recovered.size(), 3u);
+    for (const auto& parameter : recovered) EXPECT_GE(parameter.held, 19u) << domain << ' ' << parameter.name;
     expect_within(0.72, report.types[0].fit.ability_mean, domain.c_str());
     EXPECT_LE(people.logs.sample->missed * 50, people.logs.sample->checked) << domain;
   }

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "kith/core/error.hpp"
 #include "kith/fit/import_run.hpp"
-#include "kith/learners/bayesian_learner.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "scratch_folder.hpp"
@@ -21,10 +19,9 @@ inline constexpr bool kSanitized = false;
 
 namespace kith::testing {
 
-/// People who were simulated, as a run folder has them, with their true parameters.
+/// People who were simulated, as a run folder has them.
 struct SimulatedPeople {
   ResponseLogs logs;
-  std::vector<BayesianPerson> truth;  ///< In the order of logs.people.
 };
 
 /// A study of item delivery; `rest` are tables besides [design].
@@ -46,13 +43,8 @@ inline RunResult run_into(const std::filesystem::path& folder, const std::string
 
 inline SimulatedPeople simulate(const std::string& text, AnswerDetail detail = AnswerDetail::kPath) {
   const ScratchFolder folder;
-  const auto run = run_into(folder.path() / "run", text);
-  SimulatedPeople people{import_run_folder(folder.path() / "run", detail), {}};
-  for (const auto& team : run.teams) {
-    for (const auto& learner : team.learners)
-      people.truth.push_back({learner.traits[0], learner.traits[1], learner.traits[2]});
-  }
-  return people;
+  run_into(folder.path() / "run", text);
+  return {import_run_folder(folder.path() / "run", detail)};
 }
 
 }  // namespace kith::testing

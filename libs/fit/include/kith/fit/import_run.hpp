@@ -9,7 +9,8 @@ namespace kith {
 
 /// The people of a run folder (docs/formats.md, section 3): what they saw (demonstrations.csv), answered
 /// (responses.csv) and are labelled (learners.csv). What is known of them apart from the parameters (filter, prior,
-/// cap, scale) is taken from the frozen study. Of the parameters in learners.csv nothing is read.
+/// cap, scale) is taken from the frozen study. The true parameters in learners.csv are
+/// kept to compare with.
 ///
 /// Paths that are best for nobody count by their verdict only (W0706).
 /// @throws kith::Error (kInvalidInput, with file and row) if a table cannot be understood (E0501 to E0512, E0707,

@@ -37,16 +37,24 @@ struct KnownLearner {
   std::shared_ptr<const Atlas> atlas{};  ///< Of the domain; null if only constraints are known of it.
 };
 
-/// One person's sequence, and what a recovery test knows besides.
+/// Of a simulated person.
+struct TrueParameters {
+  double ability = 0.0;
+  double confirm_gain = 0.0;
+  double correct_gain = 0.0;
+};
+
+/// One person's sequence.
 struct PersonLog {
   std::string id;         ///< Unique: "7/2" is member 2 of team 7.
   std::string type;       ///< Learner type as labelled; empty: unknown.
   std::size_t model = 0;  ///< Index into ResponseLogs::models.
   std::vector<LoggedPeriod> periods;
-  std::size_t answered = 0;       ///< Tests answered, in all periods.
-  std::size_t correct = 0;        ///< Of these.
-  std::size_t final_tests = 0;    ///< Final tests; in run folders, which have none, the last 6 answers.
-  std::size_t final_correct = 0;  ///< Of these.
+  std::size_t answered = 0;               ///< Tests answered, in all periods.
+  std::size_t correct = 0;                ///< Of these.
+  std::size_t final_tests = 0;            ///< Final tests; in run folders, which have none, the last 6 answers.
+  std::size_t final_correct = 0;          ///< Of these.
+  std::optional<TrueParameters> truth{};  ///< If known; for recovery() only, no estimate depends on it.
 };
 
 /// How the answers of people were told apart where no tables say which paths are best for somebody; see
