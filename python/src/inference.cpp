@@ -47,8 +47,8 @@ py::tuple infer(const std::string& text, const std::string& name, const py::dict
   const auto reading = parse_policy(policy, "policy", *open.domain);
   if (!reading.policy) throw Error{reading.diagnostics};
   const auto inference = wait_for([&] { return infer_weights(*open.domain, *reading.policy); });
-  auto written = with_inferred_weights(text, open.domain->feature_names(), inference.weights,
-                                       {inference.share, inference.loss, inference.margin}, inference.left_out);
+  auto written = with_inferred_weights(text, open.domain->feature_names(), inference.weights, as_inferred(inference),
+                                       inference.left_out);
   auto weighed = parse_domain(written, name, {}, named);
   if (!weighed.domain) throw Error{weighed.diagnostics};
   const auto domain =

@@ -60,8 +60,8 @@ Inferred infer(const InferOptions& options, const Console& console) {
   const auto reading = parse_policy(text_of_policy(options.policy), options.policy, *open.domain);
   if (!reading.policy) throw Error{reading.diagnostics};
   auto inference = infer_weights(*open.domain, *reading.policy);
-  auto text = with_inferred_weights(input.text, open.domain->feature_names(), inference.weights,
-                                    {inference.share, inference.loss, inference.margin}, inference.left_out);
+  auto text = with_inferred_weights(input.text, open.domain->feature_names(), inference.weights, as_inferred(inference),
+                                    inference.left_out);
   auto written = parse_domain(text, "the domain with inferred weights", {}, files);
   if (!written.domain) throw Error{written.diagnostics};
   console.show(written.diagnostics);

@@ -262,6 +262,10 @@ class PolicyInference {
 }  // namespace
 }  // namespace detail
 
+InferredWeights as_inferred(const WeightInference& inference) {
+  return {inference.share, inference.loss, inference.margin, inference.left_out.size(), inference.not_explained};
+}
+
 WeightInference infer_weights(const Domain& domain, const ObservedPolicy& policy) {
   if (domain.num_features() < 2) {
     throw Error{ErrorKind::kInfeasible, "domain '" + domain.id() + "' has a single feature: there is nothing to weigh"};

@@ -86,9 +86,19 @@ void describe_clashes(const PolicyFit& fit, const Look& look, const Cone& region
   }
 }
 
+std::vector<StartId> not_explained(const PolicyFit& fit, const Look& look) {
+  std::vector<StartId> result;
+  for (std::size_t m = 0; m < fit.domain().num_mdps(); ++m) {
+    for (std::size_t s = 0; s < fit.likeliest(m).size(); ++s) {
+      if (!fit.is_explained(look, m, s)) result.push_back({MdpIndex{m}, StateIndex{s}});
+    }
+  }
+  return result;
+}
+
 // From the states that are not explained or not seen back to all from which the robot, or what is best, most likely
 // comes there: these are the paths that are shown.
-std::vector<StartId> left_out(const PolicyFit& fit, const Look& look) {
+std::vector<StartId> left_out(const PolicyFit& fit, const Look& look, const std::vector<StartId>& not_explained) {
   std::vector<StartId> result;
   for (std::size_t m = 0; m < fit.domain().num_mdps(); ++m) {
     const auto& best = look.plans[m].choice;
@@ -102,10 +112,10 @@ std::vector<StartId> left_out(const PolicyFit& fit, const Look& look) {
     }
     std::vector<bool> is_out(own.size(), false);
     std::vector<std::uint32_t> queue;
-    for (std::uint32_t s = 0; s < is_out.size(); ++s) {
-      if (fit.is_explained(look, m, s)) continue;
-      is_out[s] = true;
-      queue.push_back(s);
+    for (const StartId& id : not_explained) {
+      if (id.mdp.value() != m) continue;
+      is_out[id.start.value()] = true;
+      queue.push_back(static_cast<std::uint32_t>(id.start.value()));
     }
     while (!queue.empty()) {
       const auto s = queue.back();
@@ -132,7 +142,8 @@ void describe_fit(const PolicyFit& fit, const Look& look, const Cone& region, We
   result.unexplained = unexplained_states(fit, look);
   const ShownBy shown_by = describe_sides(fit, look, region, result);
   describe_clashes(fit, look, region, shown_by, result);
-  result.left_out = left_out(fit, look);
+  result.not_explained = not_explained(fit, look);
+  result.left_out = left_out(fit, look, result.not_explained);
 }
 
 }  // namespace kith::detail

@@ -152,11 +152,11 @@ TEST(Inference, LeavesOutEveryStartThatMeetsWhatIsNotExplained) {
   take(policy, mdp, 0, odd, (choice_of(policy, mdp, 0, odd) + 1) % mdp.choices(odd).size());
   const auto found = infer_weights(open, policy);
   if (found.is_optimal) GTEST_SKIP() << "the odd action is as good";
-  const auto written = with_inferred_weights(text, open.feature_names(), found.weights,
-                                             {found.share, found.loss, found.margin}, found.left_out);
+  const auto written =
+      with_inferred_weights(text, open.feature_names(), found.weights, as_inferred(found), found.left_out);
   const auto reading = parse_domain(written, "inferred");
   ASSERT_TRUE(reading.domain) << reading.diagnostics.front().message;
-  EXPECT_EQ(reading.domain->inferred()->left_out, found.left_out.size());
+  EXPECT_EQ(*reading.domain->inferred(), as_inferred(found));
   EXPECT_EQ(reading.domain->num_starts() + found.left_out.size(), open.num_starts());
   const Atlas atlas{*reading.domain};
   std::size_t shown = 0;

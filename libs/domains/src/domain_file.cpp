@@ -157,53 +157,91 @@ class InferredTable {
     read.share = table->real("share", Presence::kRequired, kShare).value_or(1.0);
     read.loss = table->real("loss", Presence::kOptional, kSize).value_or(0.0);
     read.margin = table->real("margin", Presence::kOptional, kSize).value_or(0.0);
-    if (const TomlArray* list = table->array("left_out", Presence::kOptional)) {
-      for (const TomlValue& element : *list) read_starts(element, file.report());
-    }
+    left_out_ = states_of(*table, "left_out", file.report());
+    not_explained_ = states_of(*table, "not_explained", file.report());
     table->finish();
-    inferred_ = read;
+    inferred_ = std::move(read);
   }
 
   void apply(Domain::Data& data, TomlReport& report) {
     if (!inferred_) return;
-    std::visit([&](auto& family) { remove_starts(family.members, report); }, data.family);
+    std::visit(
+        [&](auto& family) {
+          know_states(family.members, report);
+          remove_starts(family.members, report);
+        },
+        data.family);
     inferred_->left_out = num_removed_;
-    data.inferred = inferred_;
+    data.inferred = std::move(inferred_);
   }
 
  private:
-  struct Starts {
-    std::vector<std::int64_t> numbers;  // the world, and then states of it
+  struct StatesOfWorld {
+    std::size_t world;
+    std::vector<StateIndex> states;
     TomlPlace place;
   };
+  using Lists = std::vector<StatesOfWorld>;
 
-  void read_starts(const TomlValue& element, TomlReport& report) {
-    const TomlArray* numbers = read_array(element, "a world and its starts", report);
-    if (numbers == nullptr) return;
-    Starts starts{{}, element.place()};
-    for (const TomlValue& one : *numbers) {
-      if (const auto number = read_integer(one, "a number of 'left_out'", {0, 0xFFFFFFFF}, report))
-        starts.numbers.push_back(*number);
+  static constexpr const char* kHint =
+      "'kith infer' writes this table; run it again if the map or the model has changed";
+
+  static Lists states_of(TomlReader& table, const std::string& key, TomlReport& report) {
+    Lists lists;
+    const TomlArray* array = table.array(key, Presence::kOptional);
+    if (array == nullptr) return lists;
+    for (const TomlValue& element : *array) {
+      const TomlArray* list = read_array(element, "a world and states of it", report);
+      if (list == nullptr) continue;
+      std::vector<std::size_t> numbers;
+      for (const TomlValue& one : *list) {
+        if (const auto number = read_integer(one, "a number of '" + key + "'", {0, 0xFFFFFFFF}, report))
+          numbers.push_back(static_cast<std::size_t>(*number));
+      }
+      if (numbers.empty()) continue;
+      StatesOfWorld of_world{numbers.front(), {}, element.place()};
+      for (std::size_t i = 1; i < numbers.size(); ++i) of_world.states.emplace_back(numbers[i]);
+      lists.push_back(std::move(of_world));
     }
-    if (!starts.numbers.empty()) lists_.push_back(std::move(starts));
+    return lists;
+  }
+
+  template <typename Member>
+  static bool is_world(const StatesOfWorld& list, const std::vector<Member>& members, TomlReport& report) {
+    if (list.world < members.size()) return true;
+    report.error("E0318", list.place, "there is no world " + std::to_string(list.world), kHint);
+    return false;
+  }
+
+  template <typename Member>
+  void know_states(const std::vector<Member>& members, TomlReport& report) {
+    for (const StatesOfWorld& list : not_explained_) {
+      if (!is_world(list, members, report)) return;
+      for (const StateIndex s : list.states) {
+        if (s.value() >= members[list.world].mdp.num_states()) {
+          return report.error("E0318", list.place,
+                              "the robot does nothing in state " + std::to_string(s.value()) + " of world " +
+                                  std::to_string(list.world),
+                              kHint);
+        }
+        inferred_->not_explained.push_back({MdpIndex{list.world}, s});
+      }
+    }
+    std::ranges::sort(inferred_->not_explained);
   }
 
   template <typename Member>
   void remove_starts(std::vector<Member>& members, TomlReport& report) {
-    const std::string hint = "'kith infer' writes this table; run it again if the map or the model has changed";
-    for (const Starts& list : lists_) {
-      const auto world = static_cast<std::size_t>(list.numbers.front());
-      if (world >= members.size())
-        return report.error("E0318", list.place, "there is no world " + std::to_string(world), hint);
-      auto& starts = members[world].starts;
-      for (std::size_t i = 1; i < list.numbers.size(); ++i) {
-        const StateIndex start{static_cast<std::size_t>(list.numbers[i])};
+    for (const StatesOfWorld& list : left_out_) {
+      if (!is_world(list, members, report)) return;
+      auto& starts = members[list.world].starts;
+      for (const StateIndex start : list.states) {
         const auto at = std::lower_bound(starts.begin(), starts.end(), start);
         if (at == starts.end() || *at != start) {
           return report.error(
               "E0318", list.place,
-              "nothing can start in state " + std::to_string(start.value()) + " of world " + std::to_string(world),
-              hint);
+              "nothing can start in state " + std::to_string(start.value()) + " of world " + std::to_string(list.world),
+              kHint);
         }
         starts.erase(at);
         ++num_removed_;
@@ -211,12 +249,12 @@ class InferredTable {
     }
     const bool some =
         std::any_of(members.begin(), members.end(), [](const Member& one) { return !one.starts.empty(); });
-    if (!some) report.infeasible("E0319", place_, "no start is left that the weights explain", hint);
+    if (!some) report.infeasible("E0319", place_, "no start is left that the weights explain", kHint);
   }
 
   TomlPlace place_;
   std::optional<InferredWeights> inferred_;
-  std::vector<Starts> lists_;
+  Lists left_out_, not_explained_;
   std::size_t num_removed_ = 0;
 };
 

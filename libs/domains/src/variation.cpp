@@ -139,6 +139,18 @@ void remove_table(std::string& text, const std::string& name) {
 
 }  // namespace
 
+// An array with a list for each world: its number, and then states of it. Nothing without states.
+std::string by_world(const std::string& key, const std::string& what, const std::vector<StartId>& states) {
+  if (states.empty()) return "";
+  std::string lists;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i == 0 || states[i].mdp != states[i - 1].mdp)
+      lists += (i == 0 ? "\n  [" : "],\n  [") + std::to_string(states[i].mdp.value());
+    lists += ", " + std::to_string(states[i].start.value());
+  }
+  return "\n" + key + " = [  # worlds, each with " + what + lists + "],\n]";
+}
+
 std::string with_inferred_weights(std::string_view text, const std::vector<std::string>& features,
                                   const std::vector<double>& weights, const InferredWeights& inferred,
                                   const std::vector<StartId>& left_out) {
@@ -150,18 +162,12 @@ std::string with_inferred_weights(std::string_view text, const std::vector<std::
   std::string values;
   for (std::size_t k = 0; k < features.size(); ++k)
     values += (k == 0 ? "" : ", ") + quoted(features[k]) + " = " + to_toml(TomlValue{weights[k]});
-  std::string lists;
-  for (std::size_t i = 0; i < left_out.size(); ++i) {
-    if (i == 0 || left_out[i].mdp != left_out[i - 1].mdp)
-      lists += (i == 0 ? "\n  [" : "],\n  [") + std::to_string(left_out[i].mdp.value());
-    lists += ", " + std::to_string(left_out[i].start.value());
-  }
   return result + "\n\n[reward]\nweights = { " + values +
          " }\n\n[inferred]   # how well these weights explain the robot; 'kith infer' wrote both tables\nshare = " +
          to_toml(TomlValue{inferred.share}) + "\nloss = " + to_toml(TomlValue{inferred.loss}) +
          "\nmargin = " + to_toml(TomlValue{inferred.margin}) +
-         (lists.empty() ? "" : "\nleft_out = [  # worlds, each with the starts that are not taught" + lists + "],\n]") +
-         "\n";
+         by_world("left_out", "the starts that are not taught", left_out) +
+         by_world("not_explained", "the states that these weights do not explain", inferred.not_explained) + "\n";
 }
 
 std::optional<std::string> with_one_map(std::string_view text, const std::string& id,

@@ -130,6 +130,21 @@ TEST(InferredWeights, AreWrittenInPlaceOfTheOldOnesAndRead) {
       text);
 }
 
+TEST(InferredWeights, KnowTheStatesThatTheyDoNotExplain) {
+  const InferredWeights inferred{0.75, 0.125, 0.5, 1, {{MdpIndex{0}, StateIndex{1}}, {MdpIndex{0}, StateIndex{2}}}};
+  const auto text =
+      with_inferred_weights(kCorridor, {"mud", "step"}, {-0.25, -1}, inferred, {{MdpIndex{0}, StateIndex{1}}});
+  const auto reading = corridor(text);
+  ASSERT_TRUE(reading.domain) << reading.diagnostics.front().message << text;
+  EXPECT_EQ(*reading.domain->inferred(), inferred);
+  const auto wrong = [](const std::string& states) {
+    return corridor(kCorridor + "[inferred]\nshare = 0.5\nnot_explained = [" + states + "]\n").diagnostics.front().id;
+  };
+  EXPECT_EQ(wrong("[0, 3]"), "E0318");
+  EXPECT_EQ(wrong("[1, 0]"), "E0318");
+  EXPECT_EQ(wrong("0"), "E0108");
+}
+
 TEST(InferredWeights, OfAnotherModelAreRefused) {
   const auto with = [](const std::string& left_out) {
     const auto reading = corridor(kCorridor + "[inferred]\nshare = 0.5\nleft_out = [" + left_out + "]\n");

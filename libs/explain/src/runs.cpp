@@ -61,15 +61,27 @@ class Runner {
   bool met_chance_ = false;
 };
 
+constexpr std::size_t kMostDraws = 20;  // for each run that is wanted
+
+// Whether the robot itself would act like this, as far as inferred weights explain what it does.
+bool is_explained(const Domain& domain, MdpIndex world, const PolicyRun& run) {
+  if (!domain.inferred()) return true;
+  const auto& strange = domain.inferred()->not_explained;
+  return std::ranges::none_of(run.path.states, [&](StateIndex s) {
+    return std::ranges::binary_search(strange, StartId{world, s});
+  });
+}
+
 }  // namespace
 
 std::vector<PolicyRun> several_runs(const Atlas& atlas, StartIndex start, std::size_t n, RandomStream& random) {
   const auto id = atlas.id(start);
   Runner runner{atlas, id.mdp};
   std::vector<PolicyRun> runs;
-  for (std::size_t i = 0; i < n; ++i) {
-    runs.push_back(runner.run(id.start, random));
+  for (std::size_t i = 0; i < kMostDraws * n && runs.size() < n; ++i) {
+    auto run = runner.run(id.start, random);
     if (!runner.met_chance()) return {};  // nor would any other run
+    if (is_explained(atlas.domain(), id.mdp, run)) runs.push_back(std::move(run));
   }
   return runs;
 }

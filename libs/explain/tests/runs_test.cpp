@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "atlases.hpp"
 #include "lake.hpp"
@@ -43,6 +45,21 @@ TEST(Runs, AreRunsOfThePolicyAsOutcomesFall) {
 TEST(Runs, AreLeftOutWhereNothingIsLeftToChance) {
   RandomStream random{1};
   EXPECT_TRUE(several_runs(atlas_of("item-delivery"), StartIndex{0}, 10, random).empty());
+}
+
+TEST(Runs, KeepAwayFromStatesThatWeightsDoNotExplain) {
+  const std::filesystem::path lake = testing::slippery_lake("inferred", "{ step = -1 }", "1.0");
+  std::ofstream{lake, std::ios::app} << "[inferred]\nshare = 0.9\nnot_explained = [[0, 8]]\n";
+  const auto meets = [](const PolicyRun& run) {
+    return std::ranges::any_of(run.path.states, [](StateIndex s) { return s.value() == 8; });
+  };
+  RandomStream random{1};
+  const auto whole =
+      several_runs(atlas_of(testing::slippery_lake("steps", "{ step = -1 }", "1.0")), StartIndex{0}, 50, random);
+  EXPECT_TRUE(std::ranges::any_of(whole, meets));
+  const auto runs = several_runs(atlas_of(lake.string()), StartIndex{0}, 10, random);
+  EXPECT_FALSE(runs.empty());
+  EXPECT_TRUE(std::ranges::none_of(runs, meets));
 }
 
 TEST(Runs, AreChosenByTheirLength) {

@@ -49,7 +49,11 @@ struct WeightInference {
   /// Starts from which the robot, or what is best, most likely meets a state that is not explained or not seen;
   /// ascending. Where chance has a part, other paths than the likeliest one may still meet such a state.
   std::vector<StartId> left_out;
+  std::vector<StartId> not_explained;  ///< The states that are not explained or not seen, ascending.
 };
+
+/// What a domain file says of weights that were found (with_inferred_weights()).
+[[nodiscard]] InferredWeights as_inferred(const WeightInference& inference);
 
 /// Reward weights for a policy of which nobody wrote any down; those of the domain do not matter.
 ///

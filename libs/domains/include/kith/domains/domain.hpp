@@ -63,6 +63,8 @@ struct InferredWeights {
   double loss = 0.0;         ///< What its actions give away under them, mean over states, at length 1; >= 0.
   double margin = 0.0;       ///< Sine of the angle to the nearest weights that explain less, >= 0.
   std::size_t left_out = 0;  ///< Starts that are not used, because the robot's way from there is not explained.
+  /// States in which the robot does something else than what is best, or was not seen; ascending.
+  std::vector<StartId> not_explained{};
   friend bool operator==(const InferredWeights&, const InferredWeights&) = default;
 };
 

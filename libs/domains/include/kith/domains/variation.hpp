@@ -22,6 +22,7 @@ namespace kith {
 /// The domain file with weights that were inferred, in place of its [reward] and [inferred]; the rest stays as it is.
 /// The text need not be a sound domain file, but must be TOML.
 /// @param weights   shape [d], by feature name in the order of `features`.
+/// @param inferred  its not_explained ascending; its left_out does not matter.
 /// @param left_out  starts that the weights do not explain, ascending.
 [[nodiscard]] std::string with_inferred_weights(std::string_view text, const std::vector<std::string>& features,
                                                 const std::vector<double>& weights, const InferredWeights& inferred,

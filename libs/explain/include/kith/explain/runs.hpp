@@ -15,8 +15,9 @@ struct PolicyRun {
   bool has_ended = false;  ///< In a terminal state; otherwise Domain::max_steps() ended it.
 };
 
-/// Draws runs of the robot's policy from a start. Nothing if no outcome that can follow is left to chance.
-/// @param n  how many runs.
+/// Draws runs of the robot's policy from a start. Nothing if no outcome that can follow is left to chance. Runs that
+/// meet a state which inferred weights do not explain (InferredWeights) are drawn again.
+/// @param n  how many runs; fewer where most draws meet such a state.
 [[nodiscard]] std::vector<PolicyRun> several_runs(const Atlas& atlas, StartIndex start, std::size_t n,
                                                   RandomStream& random);
 
