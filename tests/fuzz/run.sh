@@ -138,6 +138,7 @@ TOML             libs/toml/src/
 tables           libs/table/src/csv_re
 domain files     libs/(maps/src/read_|domains/src/(domain_file|read_|condition|exact_vector|reward|wording))
 explicit models  libs/(models/src/|domains/src/(check_model|explicit_family))
+policies         libs/domains/src/policy_file
 study files      libs/study/src/(study_file|read_study_spec|read_prior)
 tables of runs   libs/study/src/read_tables
 targets files    libs/study_design/src/(targets_file|effect|quantity)
