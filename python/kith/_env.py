@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import sys
 from typing import Any, Optional
 
@@ -25,6 +24,8 @@ class _Discrete:
     """A number from 0 to n - 1; in place of gymnasium.spaces.Discrete where that is not imported."""
 
     def __init__(self, n: int) -> None:
+        import random
+
         self.n = n
         self._random = random.Random(0)
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
-import tempfile
 import weakref
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path as FilePath
@@ -23,6 +21,19 @@ if TYPE_CHECKING:
 
 StudySource = Union[str, os.PathLike[str], Mapping[str, Any]]
 """A built-in study ("paper", "quick"), a file, or a dictionary with the keys of a study file."""
+
+
+def _scratch(what: str) -> str:
+    """A new folder for a while; what makes and removes it is imported when it is needed."""
+    import tempfile
+
+    return tempfile.mkdtemp(prefix=f"kith-{what}-")
+
+
+def _discard(folder: str) -> None:
+    import shutil
+
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 class _Inputs:
@@ -50,12 +61,12 @@ class _Inputs:
         self.overrides = list(overrides(keys))
 
     def _saved(self, domain: Domain) -> str:
-        self._folders.append(tempfile.mkdtemp(prefix="kith-domain-"))
+        self._folders.append(_scratch("domain"))
         return str(domain.save(self._folders[-1]))
 
     def close(self) -> None:
         for folder in self._folders:
-            shutil.rmtree(folder, ignore_errors=True)
+            _discard(folder)
 
 
 class Tables(Mapping[str, "pandas.DataFrame"]):
@@ -265,7 +276,7 @@ def study(study: StudySource, out: Union[str, os.PathLike[str], None] = None, *,
 
     What is finished is saved all the time: after Ctrl-C, or an exception in a strategy, the same call goes on.
     """
-    temporary = tempfile.mkdtemp(prefix="kith-run-") if out is None else None
+    temporary = _scratch("run") if out is None else None
     folder = os.fspath(out) if out is not None else os.path.join(str(temporary), "run")
     try:
         inputs = _Inputs(study, settings, domain, strategies, learners)
@@ -277,11 +288,11 @@ def study(study: StudySource, out: Union[str, os.PathLike[str], None] = None, *,
             inputs.close()
     except BaseException:
         if temporary is not None:
-            shutil.rmtree(temporary, ignore_errors=True)
+            _discard(temporary)
         raise
     run = Run(folder, resumed=told["resumed"], failures=told["failures"])
     if temporary is not None:
-        weakref.finalize(run, shutil.rmtree, temporary, ignore_errors=True)
+        weakref.finalize(run, _discard, temporary)
     return run
 
 
