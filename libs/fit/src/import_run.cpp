@@ -297,13 +297,13 @@ class RunImport {
                         : together != shown_.end() ? together->second
                                                    : std::map<std::int64_t, Shown>{};
     auto& answers = answers_[seat];
-    const auto& pace = study_.study->variants[variant].pace;
+    const auto& spec = study_.study->variants[variant];
     std::set<std::int64_t> periods;
     for (const auto& [period, one] : shown) periods.insert(period);
     for (const auto& [period, list] : answers) periods.insert(period);
     for (const auto period : periods) {
       const auto it = shown.find(period);
-      person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], pace, person));
+      person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], spec, person));
     }
     // There is no final examination: the last answers stand in for it.
     constexpr std::size_t kFinal = 6;
@@ -314,12 +314,13 @@ class RunImport {
     logs_.people.push_back(std::move(person));
   }
 
-  LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, const Pace& pace, PersonLog& person) {
+  LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, const StudySpec& spec, PersonLog& person) {
     LoggedPeriod period;
     period.component = static_cast<std::size_t>(answers.empty() ? shown.component : answers.front().component);
     period.conveyed = shown.half_spaces;
     period.shown = shown.demonstrations;
-    period.minutes = minutes_of(pace, shown.demonstrations.size(), answers.size());
+    period.minutes = minutes_of(spec.teaching.pace, shown.demonstrations.size(), answers.size(),
+                                spec.group.discussion.choice.is_held());
     std::sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.test < b.test; });
     std::set<HalfSpace> possible;
     for (const auto& answered : answers) {

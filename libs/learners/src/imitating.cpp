@@ -21,6 +21,8 @@ class ImitatingLearner final : public LikeBayesian {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<ImitatingLearner>(*this); }
   [[nodiscard]] bool answers_as_believed() const override { return false; }
 
+  [[nodiscard]] Imitation imitation() const override { return {1.0 - reward_, temperature_}; }
+
   void see(const Atlas& /*atlas*/, std::span<const StartIndex> demonstrations) override {
     shown_.insert(shown_.end(), demonstrations.begin(), demonstrations.end());
   }

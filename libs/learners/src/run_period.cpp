@@ -4,22 +4,15 @@
 
 namespace kith {
 
-double minutes_of(const Pace& pace, std::size_t demonstrations, std::size_t tests) noexcept {
-  constexpr double kMinute = 60.0;
-  return (static_cast<double>(demonstrations) * pace.demonstration_s +
-          static_cast<double>(tests) * (pace.test_s + pace.feedback_s)) /
-         kMinute;
-}
-
 bool begins_component(const Session& session) {
   const auto& history = session.history();
   return history.empty() || history.back().lesson.component != session.lesson().component;
 }
 
-void pass_time(Learner& learner, const Session& session, const PeriodOptions& options) {
+void pass_time(Learner& learner, const Session& session) {
   if (session.history().empty()) return;
-  const auto& before = session.history().back().lesson;
-  learner.let_time_pass(minutes_of(options.pace, before.demonstrations.size(), before.tests.size()), before.period + 1);
+  const auto& before = session.history().back();
+  learner.let_time_pass(minutes_of(session.options().pace, before), before.lesson.period + 1);
 }
 
 void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options) {
@@ -67,7 +60,7 @@ PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& le
   period.abilities.resize(learners.size());
   for (std::size_t i = 0; i < learners.size(); ++i) {
     if (begins) learners[i]->begin_component();
-    pass_time(*learners[i], session, options);
+    pass_time(*learners[i], session);
     if (!session.takes_part(i)) continue;
     watch_lesson(*learners[i], lesson, cache, options);
     period.responses[i] = learners[i]->answer(cache.behaviours(), tests, lesson.period);

@@ -115,7 +115,7 @@ class RoomRowPage {
     double assumed = 0.0, took = 0.0;  // minutes of the periods so far
     for (const auto& past : session.history()) {
       place.periods += past.lesson.component == place.stage ? 1u : 0u;
-      assumed += minutes_of(room_.study.spec.pace, past.lesson.demonstrations.size(), past.lesson.tests.size());
+      assumed += minutes_of(room_.study.spec.teaching.pace, past);
     }
     for (const auto us : state_.durations_us) took += in_minutes(us);
     const auto left = forecast_remaining(sessions, place).at_pace(assumed > 0.0 ? took / assumed : 1.0);

@@ -125,9 +125,8 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
   taught.abilities.resize(taught.learners.size());
   if (has_lesson) {
     const auto& spec = content_.study->spec;
-    const PeriodOptions options{
-        .own_counterfactuals = spec.learner_counterfactuals_self ? spec.teaching.counterfactuals : 0,
-        .pace = spec.pace};
+    const PeriodOptions options{.own_counterfactuals =
+                                    spec.learner_counterfactuals_self ? spec.teaching.counterfactuals : 0};
     const auto& lesson = session.lesson();
     std::vector<StartIndex> tests;
     for (const auto& test : lesson.tests) tests.push_back(test.demo);
@@ -135,7 +134,7 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
       const auto& learner = taught.learners[m];
       if (!learner) continue;
       if (begins_component(session)) learner->begin_component();
-      pass_time(*learner, session, options);
+      pass_time(*learner, session);
       if (!session.takes_part(m)) continue;
       watch_lesson(*learner, lesson, cache, options);
       taught.responses[m] = learner->answer(cache.behaviours(), tests, lesson.period);

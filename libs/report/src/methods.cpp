@@ -321,8 +321,9 @@ class Paragraph {
           "of the reward weights above.");
     }
     if (data_.has_costs) {
-      say("Minutes assume " + shortest(spec_.pace.demonstration_s) + " s per demonstration, " +
-          shortest(spec_.pace.test_s) + " s per test and " + shortest(spec_.pace.feedback_s) + " s for its feedback.");
+      say("Minutes assume " + shortest(spec_.teaching.pace.demonstration_s) + " s per demonstration, " +
+          shortest(spec_.teaching.pace.test_s) + " s per test and " + shortest(spec_.teaching.pace.feedback_s) +
+          " s for its feedback.");
     }
     if (spec_.estimates) {
       say("Estimates of abilities and of mastery are posterior means over hypotheses about "

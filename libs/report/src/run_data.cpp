@@ -133,11 +133,12 @@ class DataReader {
       if (row.team() != team) taught = 0;
       ++taught;
       if (keeps_costs) {
-        const auto& pace = run_.study.variants[row.address().variant].pace;
+        const auto& spec = run_.study.variants[row.address().variant];
         const auto demonstrations = row.count(columns::kDemonstrations, 0, kMax),
                    tests = row.count(columns::kTests, 0, kMax);
         costs_[row.team()].push_back(
-            {static_cast<double>(demonstrations + tests), minutes_of(pace, demonstrations, tests),
+            {static_cast<double>(demonstrations + tests),
+             minutes_of(spec.teaching.pace, demonstrations, tests, spec.group.discussion.choice.is_held()),
              static_cast<double>(row.count(columns::kMembers, 0, row.address().composition.size()))});
       }
       if (row.has(columns::kForecastDone[0])) calibrate(row, taught);

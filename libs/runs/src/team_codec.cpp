@@ -53,7 +53,9 @@ class LayoutSearch {
   void search(columns::Declared<Record> record) {
     declare(*this, record);
   }
-  void columns(auto /*member*/, auto /*list*/) {}
+  void columns(auto /*member*/, auto /*list*/, const RecordColumn& options = {}) {
+    found_ = std::max(found_, options.since);
+  }
   void traits(auto /*member*/) {}
   void derived(auto /*function*/, const ColumnWords& /*words*/, const RecordColumn& /*options*/ = {}) {}
   [[nodiscard]] int found() const noexcept { return found_; }
@@ -80,7 +82,7 @@ class Members {
   void column(auto member, const ColumnWords& /*words*/, const RecordColumn& options = {}) {
     kept(member, options.since);
   }
-  void columns(auto member, auto /*list*/) { coder_.value(record_.*member); }
+  void columns(auto member, auto /*list*/, const RecordColumn& options = {}) { kept(member, options.since); }
   void part(auto member, const RecordColumn& options = {}) { kept(member, options.since); }
   void kept(auto member, int since = 0) {
     if (since <= coder_.layout()) coder_.value(record_.*member);

@@ -42,7 +42,8 @@ class Marks {
     expect(words.name, mark(record_.*member));
   }
   template <typename Values>
-  void columns(Values Record::*member, std::vector<Column> (*list)(const Study&)) {
+  void columns(Values Record::*member, std::vector<Column> (*list)(const Study&),
+               const RecordColumn& /*options*/ = {}) {
     const auto all = list(study_);
     if constexpr (std::is_same_v<Values, std::vector<double>>) (record_.*member).resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) expect(all[i].name, mark((record_.*member).at(i)));
@@ -126,6 +127,7 @@ Study full_study() {
   auto study = *testing::quick_study().study;
   auto& spec = study.variants.front();
   spec.record = RecordLevel::kParticles;
+  spec.teaching.hypotheses_about = HypothesesAbout::kKinds;
   spec.exam = ExamLevel::kPeriod;
   spec.estimates = spec.beliefs = true;
   spec.forecast_sessions = 10;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "kith/core/error.hpp"
+#include "kith/learners/presumed_kinds.hpp"
 #include "kith/random/stream.hpp"
 #include "parameters_toml.hpp"
 #include "read_contrasts.hpp"
@@ -158,6 +159,37 @@ class SpecReader {
   [[nodiscard]] bool is_listed(const std::string& name) const {
     return std::any_of(spec_.strategies.begin(), spec_.strategies.end(),
                        [&](const auto& other) { return other.name == name; });
+  }
+
+  // What kinds of learners the hypotheses are about.
+  void read_kinds(TomlReader& teacher) {
+    const auto all = presumable_kinds(kinds_.learners);
+    auto named = all;
+    const auto* list = teacher.array("kinds", Presence::kOptional);
+    if (list != nullptr && teacher.strings("kinds", Presence::kOptional)) {
+      named.clear();
+      for (const auto& element : *list) {
+        const auto& name = *element.string();
+        if (std::find(all.begin(), all.end(), name) == all.end()) {
+          report_.error("E0424", element.place(),
+                        "there is no kind of learner '" + name + "' that hypotheses can be about",
+                        suggestion(name, all));
+        } else if (std::find(named.begin(), named.end(), name) != named.end()) {
+          report_.error("E0403", element.place(), "kind '" + name + "' is listed twice");
+        } else {
+          named.push_back(name);
+        }
+      }
+      if (list->empty()) {
+        report_.error("E0424", teacher.value("kinds", Presence::kOptional)->place(), "there is no kind in the list",
+                      "leave it out for all kinds");
+      }
+      if (spec_.teaching.hypotheses_about != HypothesesAbout::kKinds) {
+        report_.warning("W0405", teacher.value("kinds", Presence::kOptional)->place(),
+                        "teacher.kinds means nothing without teacher.hypotheses = \"kinds\"");
+      }
+    }
+    spec_.teaching.kinds = hypotheses_about_kinds(named, kinds_.learners);
   }
 
   // The rules of aggregation whose beliefs are kept.
@@ -373,6 +405,7 @@ class SpecReader {
     refuse_conflict(teacher);
     static_cast<void>(teacher.integer("placement_tests", Presence::kOptional, {0, 0}));  // of earlier run folders
     read_beliefs(teacher);
+    read_kinds(teacher);
     teacher.finish();
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kith/teaching/learner_bank.hpp"
+
 namespace kith {
 namespace {
 
@@ -45,6 +47,9 @@ bool has_estimates(const Study& study) {
 bool has_discussions(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.group.discussion.choice.is_held(); });
 }
+bool asks_for_kinds(const Study& study) {
+  return study.variants.front().teaching.hypotheses_about == HypothesesAbout::kKinds;
+}
 bool has_belief_quality(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.beliefs; });
 }
@@ -78,6 +83,18 @@ std::vector<Column> trait_columns(const Study& study) {
                                         [&](const LearnerType* other) { return has_trait(*other->model, trait.name); });
       columns.push_back(real_column(std::string{trait.name}, std::string{trait.description}, have_all));
     }
+  }
+  return columns;
+}
+
+std::vector<Column> kind_columns(const Study& study) {
+  std::vector<Column> columns;
+  if (!asks_for_kinds(study)) return columns;
+  for (const auto& [kind, beforehand] : kinds_of(study.variants.front().teaching.kinds)) {
+    columns.push_back(real_column("p_kind_" + kind,
+                                  "Posterior probability that the member learns and answers as the learner model '" +
+                                      kind + "'. In the row of the person only.",
+                                  false));
   }
   return columns;
 }

@@ -16,7 +16,8 @@ PastSession past_session(const TeamRecord& team, const StudySpec& spec, std::siz
     last_member = period.member;
     last_session = period.session;
     session.periods.push_back({.stage = (number - 1) * num_components + period.component - 1,
-                               .minutes = minutes_of(spec.pace, period.demonstrations, period.tests)});
+                               .minutes = minutes_of(spec.teaching.pace, period.demonstrations, period.tests,
+                                                     spec.group.discussion.choice.is_held())});
   }
   return session;
 }

@@ -57,6 +57,9 @@ std::vector<Parameter> declared_in(std::string_view table) {
     result.push_back({.name = "beliefs",
                       .default_value = std::string{},
                       .description = "rules by which beliefs about the whole team are kept"});
+    result.push_back({.name = "kinds",
+                      .default_value = std::string{},
+                      .description = "kinds of learners that the hypotheses 'kinds' are about"});
   } else if (table == "stop") {
     std::vector<std::string_view> all, releasing{"none"};
     for (const auto& kind : stop_rule_kinds()) {
@@ -91,12 +94,15 @@ std::span<const OptionKey<StudySpec>> more_teacher_keys() {
 std::span<const OptionKey<StudySpec>> pace_keys() {
   constexpr double kHour = 3600.0;
   static const std::array keys{
-      option_key<StudySpec, &StudySpec::pace, &Pace::demonstration_s>(
+      option_key<StudySpec, &StudySpec::teaching, &TeachingOptions::pace, &Pace::demonstration_s>(
           "demonstration_s", "seconds that a demonstration is assumed to take", {0, kHour}),
-      option_key<StudySpec, &StudySpec::pace, &Pace::test_s>("test_s", "seconds that a test is assumed to take",
-                                                             {0, kHour}),
-      option_key<StudySpec, &StudySpec::pace, &Pace::feedback_s>(
-          "feedback_s", "seconds that the feedback about a test is assumed to take", {0, kHour})};
+      option_key<StudySpec, &StudySpec::teaching, &TeachingOptions::pace, &Pace::test_s>(
+          "test_s", "seconds that a test is assumed to take", {0, kHour}),
+      option_key<StudySpec, &StudySpec::teaching, &TeachingOptions::pace, &Pace::feedback_s>(
+          "feedback_s", "seconds that the feedback about a test is assumed to take", {0, kHour}),
+      option_key<StudySpec, &StudySpec::teaching, &TeachingOptions::pace, &Pace::discussion_s>(
+          "discussion_s", "seconds that groups that talk are assumed to talk about a test", {0, kHour},
+          [](const StudySpec& spec) { return spec.group.discussion.choice.is_held(); })};
   return keys;
 }
 

@@ -90,11 +90,20 @@ class RecordColumns {
   }
 
   template <typename Values, typename Record>
-  void columns(Values Record::*member, std::vector<Column> (*list)(const Study&)) {
+  void columns(Values Record::*member, std::vector<Column> (*list)(const Study&),
+               const RecordColumn& /*options*/ = {}) {
     std::size_t i = 0;
     for (const auto& column : list(study_)) {
-      derived([member, i](const Record& record) { return (record.*member).at(i); },
-              {column.name, column.description, column.unit, column.kind});
+      const ColumnWords words{column.name, column.description, column.unit, column.kind};
+      if (column.required) {
+        derived([member, i](const Record& record) { return (record.*member).at(i); }, words);
+      } else {
+        derived(
+            [member, i](const Record& record) {
+              return i < (record.*member).size() ? std::optional{(record.*member)[i]} : std::nullopt;
+            },
+            words);
+      }
       ++i;
     }
   }

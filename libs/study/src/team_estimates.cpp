@@ -72,6 +72,11 @@ void TeamEstimates::write_person(EstimateRecord record, const LearnerBank& bank,
     record.ability_high = bank.ability_quantile((1.0 + kInterval) / 2.0);
     record.p_proficient = bank.probability_of_ability(spec_.proficient_ability);
   }
+  if (spec_.teaching.hypotheses_about == HypothesesAbout::kKinds) {
+    const auto kinds = bank.kinds();
+    for (const auto& one : kinds) record.p_kinds.push_back(one.probability);
+    record.kind = kind_word(kinds);
+  }
   record_.estimates.push_back(record);
 }
 

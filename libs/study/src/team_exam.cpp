@@ -11,7 +11,7 @@ namespace {
 
 // Of people whose answers do not follow from a belief that could be graded: questions, and in how many sittings. In
 // each of these the person answers by other weights.
-constexpr std::size_t kQuestionsInstead = 240;
+constexpr std::size_t kQuestionsInstead = 160;
 constexpr std::size_t kSittings = 8;
 constexpr std::size_t kNextSitting = 1'000'000'000;  // answers are drawn by period: this many periods later
 

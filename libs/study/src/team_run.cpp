@@ -159,7 +159,6 @@ class TeamRun {
     const auto period =
         run_period(session, cache_, learners,
                    {.own_counterfactuals = spec_.learner_counterfactuals_self ? spec_.teaching.counterfactuals : 0,
-                    .pace = spec_.pace,
                     .discussion = spec_.group.discussion.choice,
                     .talk = talk});
     const auto& past = session.history().back();
@@ -169,7 +168,7 @@ class TeamRun {
       rows[i].tests += lesson.tests.size();
       for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
     }
-    add_up(lesson, present.size());
+    add_up(past, present.size());
     if (spec_.record != RecordLevel::kTeam) {
       write_period(session, lesson, feedback, rows, present, member);
       record_.period_records.back().mastery = mastery_after(cache_, spec_, session, learners, present);
@@ -182,10 +181,11 @@ class TeamRun {
     if (observer_ != nullptr) observer_->on_feedback(session, lesson, period.responses, feedback, learners);
   }
 
-  void add_up(const Lesson& lesson, std::size_t members) {
+  void add_up(const PastPeriod& past, std::size_t members) {
+    const auto& lesson = past.lesson;
     record_.demonstrations += lesson.demonstrations.size();
     record_.tests += lesson.tests.size();
-    const double minutes = minutes_of(spec_.pace, lesson.demonstrations.size(), lesson.tests.size());
+    const double minutes = minutes_of(spec_.teaching.pace, past);
     record_.cost.person_periods += members;
     record_.cost.minutes += minutes;
     record_.cost.person_minutes += minutes * static_cast<double>(members);

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "kith/study/study_file.hpp"
+#include "kith/teaching/learner_bank.hpp"
 #include "kith/toml/document.hpp"
 #include "parameters_toml.hpp"
 #include "read_group.hpp"
@@ -132,6 +133,11 @@ TomlValue teacher(const StudySpec& spec) {
   write_options(more.first(1), spec, table);
   table.append({"beliefs", {}, TomlValue{strings(beliefs)}});
   write_options(more.subspan(1), spec, table);
+  if (spec.teaching.hypotheses_about == HypothesesAbout::kKinds) {
+    std::vector<std::string> kinds;
+    for (const auto& one : kinds_of(spec.teaching.kinds)) kinds.push_back(one.kind);
+    table.append({"kinds", {}, TomlValue{strings(kinds)}});
+  }
   return TomlValue{std::move(table)};
 }
 

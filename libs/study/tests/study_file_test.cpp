@@ -96,7 +96,7 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.release, std::nullopt);
   EXPECT_EQ(spec.forecast_sessions, 0u);
   EXPECT_FALSE(spec.estimates);
-  EXPECT_EQ(spec.pace, Pace{});
+  EXPECT_EQ(spec.teaching.pace, Pace{});
   const auto& novice = learner_type(spec, 'N');
   EXPECT_EQ(novice.parameters.real("ability.min"), 0.6);
   EXPECT_EQ(novice.parameters.real("ability_max"), 0.95);
@@ -187,7 +187,7 @@ TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
     EXPECT_EQ(spec.grouping, Grouping::kByType);
     EXPECT_EQ(spec.teaching.hypotheses_about, HypothesesAbout::kKnownComponents);
     EXPECT_EQ(spec.teaching.release, stop_rule_named("posterior"));
-    EXPECT_EQ(spec.pace, (Pace{8.0, 12.5, 0.0}));
+    EXPECT_EQ(spec.teaching.pace, (Pace{8.0, 12.5, 0.0}));
     EXPECT_EQ(spec.forecast_sessions, 50u);
     EXPECT_TRUE(spec.estimates);
     EXPECT_EQ(spec.proficient_ability, 0.8);

@@ -9,6 +9,7 @@
 #include "kith/study/study_file.hpp"
 #include "kith/study/tables.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
+#include "kith/teaching/learner_bank.hpp"
 
 namespace kith {
 namespace {
@@ -137,6 +138,28 @@ TEST(StudyKinds, RulesOfOnesOwnHaveColumns) {
     if (file == "periods.csv") periods += piece;
   });
   EXPECT_NE(periods.find("gain,p_bec_common,p_bec_joint,p_bec_first\n"), std::string::npos);
+}
+
+// What kinds of learners the teacher thinks of is read, written and read again.
+TEST(StudyKindsTest, NameKindsOfLearners) {
+  const std::string asks = "[teacher]\nhypotheses = \"kinds\"\n";
+  const auto reading = parse_study(study("\"joint\"", asks + "kinds = [\"bayesian\", \"decaying\"]\n"), "s.toml");
+  ASSERT_TRUE(reading.study);
+  const auto& kinds = reading.study->variants.front().teaching.kinds;
+  EXPECT_EQ(kinds_of(kinds).size(), 2u);
+  EXPECT_EQ(kinds_of(kinds).back().kind, "decaying");
+  const auto again = parse_study(to_toml(*reading.study, *reading.domain), "again.toml");
+  ASSERT_TRUE(again.study);
+  EXPECT_EQ(kinds_of(again.study->variants.front().teaching.kinds), kinds_of(kinds));
+
+  EXPECT_EQ(kinds_of(parse_study(study("\"joint\"", asks), "s.toml").study->variants.front().teaching.kinds).size(),
+            6u);
+  EXPECT_EQ(ids_in(parse_study(study("\"joint\"", asks + "kinds = [\"baysian\"]\n"), "s.toml")),
+            (std::vector<std::string>{"E0424"}));
+  EXPECT_EQ(ids_in(parse_study(study("\"joint\"", asks + "kinds = []\n"), "s.toml")),
+            (std::vector<std::string>{"E0424"}));
+  EXPECT_EQ(ids_in(parse_study(study("\"joint\"", "[teacher]\nkinds = [\"bayesian\"]\n"), "s.toml")),
+            (std::vector<std::string>{"W0405"}));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "item_delivery.hpp"
+#include "kith/learners/presumed_kinds.hpp"
 #include "kith/study/study.hpp"
 #include "kith/study/tables.hpp"
 
@@ -108,6 +109,24 @@ TEST(TeamEstimates, SayWhoKnewWhat) {
       }
     }
   }
+}
+
+TEST(TeamEstimates, SayWhatKindOfLearner) {
+  auto spec = estimated_spec();
+  spec.teaching.hypotheses_about = HypothesesAbout::kKinds;
+  spec.teaching.kinds = hypotheses_about_kinds({"bayesian", "imitating"});
+  spec.replicates = 1;
+  const auto teams = estimated_teams(spec);
+  for (const auto& estimate : teams.front().estimates) {
+    EXPECT_EQ(estimate.p_kinds.size(), estimate.component == 0 ? 2u : 0u);
+    EXPECT_EQ(estimate.kind.has_value(), estimate.component == 0);
+    if (estimate.component == 0) {
+      EXPECT_NEAR(estimate.p_kinds[0] + estimate.p_kinds[1], 1.0, 1e-9);
+    }
+  }
+  const auto table = estimated_table(spec, "estimates.csv");
+  EXPECT_THAT(table, HasSubstr(",right,p_kind_bayesian,p_kind_imitating,kind\n"));
+  EXPECT_THAT(table, HasSubstr(",0.5,0.5,cannot tell yet\n"));
 }
 
 TEST(TeamEstimates, ChangeNothingElse) {

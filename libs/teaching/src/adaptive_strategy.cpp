@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <vector>
 
 #include "kith/teaching/strategy.hpp"
@@ -23,27 +22,12 @@ class PlanForWhoTheyAre : public Strategy {
   [[nodiscard]] std::unique_ptr<Strategy> clone() const override { return std::make_unique<PlanForWhoTheyAre>(*this); }
 
   [[nodiscard]] UnitProposal propose(const TeachingView& view, UnitSelector& select, RandomStream random) override {
-    return {SourceBelief::of_everybody(), lookahead_.best_unit(select.cache(), view, members(view), random)};
+    const auto members = view.bank == nullptr ? lookahead_.believed(view)
+                                              : Lookahead::mixed(view, answers_, Lookahead::Weighing::kPosterior);
+    return {SourceBelief::of_everybody(), lookahead_.best_unit(select.cache(), view, members, random)};
   }
 
  private:
-  [[nodiscard]] std::vector<std::vector<MemberHypothesis>> members(const TeachingView& view) const {
-    if (view.bank == nullptr) return lookahead_.believed(view);
-    std::vector<std::vector<MemberHypothesis>> members(view.bank->size());
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      if (!view.belief.present()[i]) continue;
-      MemberHypothesis mean{answers_, &view.bank->informed(i), 0.0, 0.0};
-      for (auto hypothesis : view.bank->member(i).as_members(view.bank->begins(view.component))) {
-        mean.shown_ability += hypothesis.weight * hypothesis.shown_ability;
-        mean.feedback_ability += hypothesis.weight * hypothesis.feedback_ability;
-        hypothesis.weight *= 1.0 - answers_;
-        members[i].push_back(hypothesis);
-      }
-      members[i].push_back(mean);
-    }
-    return members;
-  }
-
   Lookahead lookahead_;
   double answers_;
 };

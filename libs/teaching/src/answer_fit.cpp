@@ -71,6 +71,7 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
       guesses_[g].right = convolved(guesses_[g].right, std::vector{1.0 - right, right});
     }
     tests_.push_back(std::move(test));
+    given_.push_back({tests[t].demo, *answers[t]});
   }
 }
 

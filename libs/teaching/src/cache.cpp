@@ -6,7 +6,9 @@
 
 namespace kith {
 
-std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.memory() + known_->regions.memory(); }
+std::size_t TeachingCache::memory() const noexcept {
+  return known_->behaviours.memory() + known_->regions.memory() + (imitation_ ? imitation_->memory() : 0);
+}
 
 std::size_t TeachingCache::bytes_of_thread(const Atlas& atlas, std::size_t threads) {
   constexpr std::size_t kShared = std::size_t{192} << 20u;
@@ -19,6 +21,7 @@ void TeachingCache::trim() {
   const bool renews = partitions_->is_outdated();
   if (memory() <= max_bytes_ && !renews) return;
   known_.reset();  // first, so that both are never held
+  imitation_.reset();
   if (renews) partitions_->renew();
   known_ = std::make_unique<Known>(*atlas_, max_bytes_, partitions_);
 }
@@ -34,6 +37,11 @@ const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {
   constexpr std::size_t kPriorPoints = 1000;  // to find out how difficult starts are
   if (!exam_) exam_ = std::make_shared<const Exam>(behaviours(), cover(atlas_->prior_cone(), kPriorPoints));
   return exam_;
+}
+
+ImitationTable& TeachingCache::imitation() {
+  if (!imitation_) imitation_.emplace(*atlas_, exam());
+  return *imitation_;
 }
 
 const std::shared_ptr<const StartSample>& TeachingCache::starts_of(std::size_t component) {

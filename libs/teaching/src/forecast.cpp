@@ -24,7 +24,7 @@ double quantile_of(std::span<const RemainingTime::Case> cases, double q, Value v
 }
 
 double periods_of(const RemainingTime::Case& one) { return static_cast<double>(one.periods); }
-double minutes_of(const RemainingTime::Case& one) { return one.minutes; }
+double case_minutes(const RemainingTime::Case& one) { return one.minutes; }
 
 std::size_t periods_of_stage(const PastSession& session, std::size_t stage) {
   return static_cast<std::size_t>(std::count_if(session.periods.begin(), session.periods.end(),
@@ -62,9 +62,9 @@ RemainingTime::RemainingTime(std::vector<Case> cases) : cases_{std::move(cases)}
 }
 
 double RemainingTime::mean_periods() const { return mean_of(cases_, periods_of); }
-double RemainingTime::mean_minutes() const { return mean_of(cases_, minutes_of); }
+double RemainingTime::mean_minutes() const { return mean_of(cases_, case_minutes); }
 double RemainingTime::periods_quantile(double q) const { return quantile_of(cases_, q, periods_of); }
-double RemainingTime::minutes_quantile(double q) const { return quantile_of(cases_, q, minutes_of); }
+double RemainingTime::minutes_quantile(double q) const { return quantile_of(cases_, q, case_minutes); }
 
 double RemainingTime::done_within(std::size_t periods) const {
   return mean_of(cases_, [&](const Case& one) { return one.completed && one.periods <= periods ? 1.0 : 0.0; });

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kHighestAbility = 0.95;  // that gains lead to
 constexpr double kCertain = 1.0 - 1e-9;
+constexpr double kSureOfKind = 0.8;
 
 }  // namespace
 
@@ -55,59 +56,149 @@ std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_componen
   return grid;
 }
 
+namespace {
+
+// Somebody who learns as the paper has it: knows some components beforehand, and gains ability.
+class UsualLearner final : public PresumedLearner {
+ public:
+  // @param h  the number of the hypothesis: the address of what moves its points.
+  UsualLearner(const LearnerHypothesis& hypothesis, const PresumedStart& start, const RandomStream& random,
+               std::size_t h)
+      : hypothesis_{hypothesis},
+        likelihood_{start.likelihood},
+        random_{random},
+        h_{h},
+        ability_{hypothesis.ability},
+        belief_{start.cover, start.filter} {
+    if (hypothesis.known == 0) return;
+    belief_.observe(known_half_spaces(start.components, hypothesis.known),
+                    HalfSpaceLikelihood{kAbilityOfKnowing, likelihood_, belief_.dimension()},
+                    random_.split("known").split(h_));
+  }
+
+  [[nodiscard]] std::unique_ptr<PresumedLearner> clone() const override {
+    return std::make_unique<UsualLearner>(*this);
+  }
+  void begin_component() override { ability_ = hypothesis_.ability; }
+  void watch(std::span<const HalfSpace> half_spaces, std::size_t period) override {
+    observe(half_spaces, random_.split("watch").split(period));
+  }
+  void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override {
+    const double grown = ability_ + (all_correct ? hypothesis_.confirm_gain : hypothesis_.correct_gain);
+    ability_ = std::max(ability_, std::min(grown, kHighestAbility));
+    observe(half_spaces, random_.split("feedback").split(period));
+  }
+  [[nodiscard]] double likelihood(const AnswerFit& fit, PointCells& cells) const override {
+    return fit.of(belief_, cells).likelihood;
+  }
+  [[nodiscard]] const ParticleBelief& belief() const override { return belief_; }
+  [[nodiscard]] double ability() const override { return ability_; }
+  [[nodiscard]] MemberHypothesis as_member(bool begins) const override {
+    const double now = begins ? hypothesis_.ability : ability_;
+    const double gain = (hypothesis_.confirm_gain + hypothesis_.correct_gain) / 2.0;
+    return {1.0, &belief_, now, std::max(now, std::min(now + gain, kHighestAbility))};
+  }
+
+ private:
+  void observe(std::span<const HalfSpace> half_spaces, const RandomStream& random) {
+    belief_.observe(half_spaces, HalfSpaceLikelihood{std::min(ability_, kCertain), likelihood_, belief_.dimension()},
+                    random.split(h_));
+  }
+
+  LearnerHypothesis hypothesis_;
+  LikelihoodForm likelihood_;
+  RandomStream random_;
+  std::size_t h_;
+  double ability_;  // now
+  ParticleBelief belief_;
+};
+
+std::string_view kind_of(const LearnerHypothesis& hypothesis) {
+  return hypothesis.kind ? std::string_view{hypothesis.kind->name} : kUsualKind;
+}
+
+// Sums weights by kind, in the order of the hypotheses.
+std::vector<KindProbability> by_kind(std::span<const LearnerHypothesis> hypotheses, std::span<const double> weights) {
+  std::vector<KindProbability> kinds;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    const auto name = kind_of(hypotheses[h]);
+    auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return one.kind == name; });
+    if (known == kinds.end()) known = kinds.insert(kinds.end(), {std::string{name}, 0.0});
+    known->probability += weights[h];
+  }
+  return kinds;
+}
+
+std::vector<double> shares_of(std::span<const LearnerHypothesis> hypotheses) {
+  double sum = 0.0;
+  for (const auto& one : hypotheses) sum += one.probability;
+  std::vector<double> shares;
+  for (const auto& one : hypotheses) shares.push_back(one.probability / sum);
+  return shares;
+}
+
+}  // namespace
+
+std::string kind_word(std::span<const KindProbability> kinds) {
+  const auto sure =
+      std::find_if(kinds.begin(), kinds.end(), [](const auto& one) { return one.probability >= kSureOfKind; });
+  return sure == kinds.end() ? "cannot tell yet" : sure->kind;
+}
+
+std::vector<KindProbability> kinds_of(std::span<const LearnerHypothesis> hypotheses) {
+  return by_kind(hypotheses, shares_of(hypotheses));
+}
+
 LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
                          std::vector<LearnerHypothesis> hypotheses, RandomStream random,
                          std::span<const std::vector<HalfSpace>> components)
-    : likelihood_{likelihood},
-      hypotheses_{std::move(hypotheses)},
-      random_{random},
-      beliefs_(hypotheses_.size(), ParticleBelief{cover, filter}),
-      cells_(hypotheses_.size()) {
+    : hypotheses_{std::move(hypotheses)} {
   require_hypotheses(hypotheses_);
-  double sum = 0.0;
-  for (const auto& hypothesis : hypotheses_) sum += hypothesis.probability;
-  for (const auto& one : hypotheses_) {
-    weights_.push_back(one.probability / sum);
-    abilities_.push_back(one.ability);
+  weights_ = shares_of(hypotheses_);
+  const PresumedStart start{cover, filter, likelihood, components};
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    const auto& one = hypotheses_[h];
+    people_.emplace_back(one.kind ? one.kind->make(one, start, random.split("kind").split(h))
+                                  : std::make_unique<UsualLearner>(one, start, random, h));
   }
   if (hypotheses_.size() > 1) {
-    others_ = NonLearners{beliefs_.front()};
+    others_ = NonLearners{ParticleBelief{cover, filter}};
     learns_ = 1.0 - others_.weight();
   }
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    if (hypotheses_[h].known == 0) continue;
-    beliefs_[h].observe(known_half_spaces(components, hypotheses_[h].known),
-                        HalfSpaceLikelihood{kAbilityOfKnowing, likelihood_, beliefs_[h].dimension()},
-                        random_.split("known").split(h));
-  }
 }
+
+std::vector<double> LearnerBank::weights_beforehand() const { return shares_of(hypotheses_); }
+
+std::vector<KindProbability> LearnerBank::kinds() const { return by_kind(hypotheses_, weights_); }
 
 void LearnerBank::begin_component() {
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) abilities_[h] = hypotheses_[h].ability;
+  for (auto& one : people_) one.person->begin_component();
 }
 
-void LearnerBank::observe(std::size_t h, std::span<const HalfSpace> half_spaces, RandomStream random) {
-  beliefs_[h].observe(half_spaces,
-                      HalfSpaceLikelihood{std::min(abilities_[h], kCertain), likelihood_, beliefs_[h].dimension()},
-                      random.split(h));
+void LearnerBank::let_time_pass(double minutes, std::size_t period) {
+  for (auto& one : people_) one.person->let_time_pass(minutes, period);
+}
+
+void LearnerBank::see(const Atlas& atlas, std::span<const StartIndex> demonstrations) {
+  for (auto& one : people_) one.person->see(atlas, demonstrations);
 }
 
 void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t period) {
   if (has_begun_ && !others_.empty()) {
     const auto likeliest = std::max_element(weights_.begin(), weights_.end()) - weights_.begin();
     const double before = others_.weight();
-    others_.begin_period(learns_, &beliefs_[static_cast<std::size_t>(likeliest)], {1.0});
+    others_.begin_period(learns_, &belief(static_cast<std::size_t>(likeliest)), {1.0});
     learns_ -= others_.weight() - before;
   }
   has_begun_ = true;
-  for (std::size_t h = 0; h < beliefs_.size(); ++h) observe(h, half_spaces, random_.split("watch").split(period));
+  for (auto& one : people_) one.person->watch(half_spaces, period);
 }
 
 void LearnerBank::see_answers(const AnswerFit& fit) {
   if (hypotheses_.size() < 2 || fit.num_tests() == 0) return;  // there is nothing to tell apart
   double learns = 0.0;
   for (std::size_t h = 0; h < weights_.size(); ++h) {
-    weights_[h] *= fit.of(beliefs_[h], cells_[h]).likelihood;
+    weights_[h] *= people_[h].person->likelihood(fit, people_[h].cells);
     learns += weights_[h];
   }
   for (double& weight : weights_) weight /= learns;
@@ -119,28 +210,21 @@ void LearnerBank::see_answers(const AnswerFit& fit) {
 }
 
 void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    const auto& one = hypotheses_[h];
-    const double grown = abilities_[h] + (all_correct ? one.confirm_gain : one.correct_gain);
-    abilities_[h] = std::max(abilities_[h], std::min(grown, kHighestAbility));
-    observe(h, half_spaces, random_.split("feedback").split(period));
-  }
+  for (auto& one : people_) one.person->hear_feedback(all_correct, half_spaces, period);
 }
 
 std::vector<MemberHypothesis> LearnerBank::as_members(bool begins) const {
   std::vector<MemberHypothesis> members;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    const auto& one = hypotheses_[h];
-    const double now = begins ? one.ability : abilities_[h];
-    const double gain = (one.confirm_gain + one.correct_gain) / 2.0;
-    members.push_back({weights_[h], &beliefs_[h], now, std::max(now, std::min(now + gain, kHighestAbility))});
+    members.push_back(people_[h].person->as_member(begins));
+    members.back().weight = weights_[h];
   }
   return members;
 }
 
 double LearnerBank::expected_present_ability() const {
   double mean = 0.0;
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * abilities_[h];
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * people_[h].person->ability();
   return mean;
 }
 
@@ -208,8 +292,8 @@ double LearnerBank::probability_of_ability(double at_least) const {
 std::vector<double> LearnerBank::cell_masses(const Atlas& atlas, double stopping) {
   std::vector<double> masses(atlas.tables().cells().size(), 0.0);
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    const auto cells = cells_[h].of(atlas, beliefs_[h]);
-    const auto weights = beliefs_[h].weights();
+    const auto cells = people_[h].cells.of(atlas, belief(h));
+    const auto weights = belief(h).weights();
     for (std::size_t i = 0; i < weights.size(); ++i) masses[cells[i]] += learns_ * weights_[h] * weights[i];
   }
   others_.add_cell_masses(atlas, masses, stopping);
@@ -220,7 +304,7 @@ std::vector<double> LearnerBank::cell_masses(const Atlas& atlas, double stopping
 
 double LearnerBank::mass_in(std::span<const HalfSpace> half_spaces) const {
   double mass = 0.0;
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mass += weights_[h] * beliefs_[h].mass_in(half_spaces);
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mass += weights_[h] * belief(h).mass_in(half_spaces);
   mass *= learns_;
   for (const auto& [weight, share] : others_.shares(half_spaces)) mass += weight * share;
   return mass;

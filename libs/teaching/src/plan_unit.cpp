@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kith/geometry/cone.hpp"
+#include "kith/teaching/imitation_table.hpp"
 #include "visual_order.hpp"
 
 namespace kith {
@@ -95,6 +96,78 @@ std::vector<ConstraintIndex> in_order(const ConstraintTable& constraints, const 
   return members;
 }
 
+// What demonstrations are worth to people who imitate them: the grade that is expected on the starts of an
+// ImitationTable, times the share of answers that are imitations.
+class WorthOfImitation {
+ public:
+  // @param history  of what was shown before.
+  WorthOfImitation(ImitationTable& table, const UnitValue& value, const PastPeriods& history)
+      : table_{table},
+        imitation_{value.imitation()},
+        by_regret_{value.objective() == TeachingObjective::kRegret},
+        worth_(table.num_starts(), 0.0),
+        weight_(table.num_starts(), 0.0) {
+    for (const auto& period : history) {
+      for (const auto& shown : period.lesson.demonstrations) add(shown.demo);
+    }
+  }
+
+  void add(StartIndex demonstration) {
+    const auto row = table_.of(demonstration);
+    for (std::size_t s = 0; s < row.size(); ++s) {
+      const double similarity = std::exp(-row[s].distance / imitation_.temperature);
+      weight_[s] += similarity;
+      worth_[s] += similarity * worth_of(row[s].grade);
+    }
+  }
+
+  // If this were shown, too.
+  [[nodiscard]] double with(StartIndex demonstration) const {
+    const auto row = table_.of(demonstration);
+    double sum = 0.0;
+    for (std::size_t s = 0; s < row.size(); ++s) {
+      const double similarity = std::exp(-row[s].distance / imitation_.temperature);
+      const double weight = weight_[s] + similarity;
+      if (weight > 0.0) sum += (worth_[s] + similarity * worth_of(row[s].grade)) / weight;
+    }
+    return imitation_.probability * sum / static_cast<double>(std::max<std::size_t>(row.size(), 1));
+  }
+
+  // The best of some demonstrations of these classes, which are spread over them.
+  struct Best {
+    double worth = 0.0;
+    StartIndex demo;
+  };
+  [[nodiscard]] Best best_of(const Atlas& atlas, std::span<const StartClassIndex> classes,
+                             const VisitedStarts& visited) const {
+    constexpr std::size_t kCompared = 24;
+    std::vector<StartIndex> fresh, all;
+    for (const auto c : classes) {
+      for (const auto demo : atlas.members(c)) {
+        all.push_back(demo);
+        if (!visited.contains(demo)) fresh.push_back(demo);
+      }
+    }
+    const auto& from = fresh.empty() ? all : fresh;
+    const auto n = std::min(kCompared, from.size());
+    std::optional<Best> best;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto demo = from[i * from.size() / n];
+      const double worth = with(demo);
+      if (!best || worth > best->worth) best = Best{worth, demo};
+    }
+    return best.value();
+  }
+
+ private:
+  [[nodiscard]] double worth_of(const Grade& grade) const { return by_regret_ ? -grade.regret : grade.share_right; }
+
+  ImitationTable& table_;
+  Imitation imitation_;
+  bool by_regret_;
+  std::vector<double> worth_, weight_;  // summed over what was shown, shape [starts]
+};
+
 // U of demonstrations that convey and teach this, for people who take in the first `capacity` constraints of a lesson.
 double value_of_shown(TeachingCache& cache, UnitValue& value, std::span<const ConstraintSet> shown,
                       const ConstraintSet& taught, std::size_t capacity) {
@@ -126,14 +199,20 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
   Unit unit;
   auto region = cache.numbers_of(view.taught_region);
   std::vector<ConstraintSet> shown;
+  std::optional<WorthOfImitation> imitation;
+  if (value.imitation().probability > 0.0) imitation.emplace(cache.imitation(), value, view.history);
   double reached = 0.0;
   for (std::uint64_t step = 0; step < options.max_demonstrations && !candidates.empty(); ++step) {
     std::vector<double> values;
     TaughtAfter taught{cache, shown};
+    std::vector<WorthOfImitation::Best> copied;
     shown.emplace_back();
     for (const auto& candidate : candidates) {
       shown.back() = candidate.conveyed;
       values.push_back(value_of_shown(cache, value, shown, taught.with(candidate.conveyed), options.capacity));
+      if (!imitation) continue;
+      copied.push_back(imitation->best_of(atlas, candidate.classes, visited));
+      values.back() += copied.back().worth;
     }
     const double best = *std::max_element(values.begin(), values.end());
     if (step > 0 && !(best > reached + options.min_gain)) break;
@@ -148,7 +227,13 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
         std::any_of(classes.begin(), classes.end(), [&](auto c) { return has_unvisited(atlas, c, visited); });
     const VisitedStarts nothing{atlas.num_states()};
     Demonstration next;
-    next.demo = simplest_of(atlas, classes, is_new ? visited : nothing, unit.demonstrations, random.split(step));
+    if (imitation) {
+      const auto first = std::max_element(values.begin(), values.end()) - values.begin();
+      next.demo = copied[static_cast<std::size_t>(first)].demo;
+      imitation->add(next.demo);
+    } else {
+      next.demo = simplest_of(atlas, classes, is_new ? visited : nothing, unit.demonstrations, random.split(step));
+    }
     const auto chosen = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
       const auto c = atlas.start_class(next.demo);
       return std::find(candidate.classes.begin(), candidate.classes.end(), c) != candidate.classes.end();

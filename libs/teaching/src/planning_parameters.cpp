@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "kith/teaching/team_bank.hpp"
 #include "whole_components.hpp"
 
 namespace kith {
@@ -76,6 +77,32 @@ std::vector<std::vector<MemberHypothesis>> Lookahead::believed(const TeachingVie
   std::vector<std::vector<MemberHypothesis>> members(view.belief.num_members());
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (view.belief.present()[i]) members[i].push_back({1.0, &view.belief.member(i), ability, after});
+  }
+  return members;
+}
+
+std::vector<std::vector<MemberHypothesis>> Lookahead::mixed(const TeachingView& view, double answers,
+                                                            Weighing weighing) {
+  std::vector<std::vector<MemberHypothesis>> members(view.bank->size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (!view.belief.present()[i]) continue;
+    const auto& bank = view.bank->member(i);
+    MemberHypothesis mean{answers, &view.bank->informed(i), 0.0, 0.0};
+    const auto beforehand = bank.weights_beforehand();
+    double temperature = 0.0;  // summed over the answers that are imitations
+    auto hypotheses = bank.as_members(view.bank->begins(view.component));
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+      auto& one = hypotheses[h];
+      if (weighing == Weighing::kBeforehand) one.weight = beforehand[h];
+      mean.shown_ability += one.weight * one.shown_ability;
+      mean.feedback_ability += one.weight * one.feedback_ability;
+      mean.imitation.probability += one.weight * one.imitation.probability;
+      temperature += one.weight * one.imitation.probability * one.imitation.temperature;
+      one.weight *= 1.0 - answers;
+      members[i].push_back(one);
+    }
+    if (mean.imitation.probability > 0.0) mean.imitation.temperature = temperature / mean.imitation.probability;
+    members[i].push_back(mean);
   }
   return members;
 }

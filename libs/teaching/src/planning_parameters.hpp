@@ -24,6 +24,11 @@ struct Lookahead {
   [[nodiscard]] PlanOptions plan_for(const TeachingView& view) const;
   // The members present with what the teacher believes about them, all of the assumed ability.
   [[nodiscard]] std::vector<std::vector<MemberHypothesis>> believed(const TeachingView& view) const;
+  // The members present with the hypotheses of the bank and, with the weight `answers`, the belief that knows the
+  // answers. @pre the view has a bank
+  enum class Weighing { kPosterior, kBeforehand };
+  [[nodiscard]] static std::vector<std::vector<MemberHypothesis>> mixed(const TeachingView& view, double answers,
+                                                                        Weighing weighing);
   [[nodiscard]] UnitValue value(TeachingCache& cache, const TeachingView& view,
                                 std::span<const std::vector<MemberHypothesis>> members, RandomStream random) const;
   // The best unit that can be put together for these members.

@@ -327,7 +327,10 @@ void Session::show() {
   auto shown = events_.prepare(LessonShown{});
   update_both(belief_, judged_, present,
               [&](TeamBelief& belief) { belief.observe_demonstrations(conveyed, lesson_.period); });
-  if (bank_) bank_->watch(lesson_, present);
+  if (bank_) {
+    const double minutes = history_.empty() ? 0.0 : minutes_of(options_.pace, history_.back());
+    bank_->watch(*atlas_, lesson_, present, minutes);
+  }
   events_.push_back(std::move(shown));
   phase_ = SessionPhase::kTests;
 }

@@ -30,7 +30,9 @@ void Session::make_rules(TeachingCache& cache) {
   if (options_.hypotheses_about == HypothesesAbout::kKnownComponents)
     options_.hypotheses = grid_of_known_components(atlas_->knowledge_components().size());
   if (options_.hypotheses_about == HypothesesAbout::kNothing) options_.hypotheses = one_hypothesis();
-  if (!needs.bank && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
+  const bool asks_for_kinds = options_.hypotheses_about == HypothesesAbout::kKinds;
+  if (asks_for_kinds) options_.hypotheses = options_.kinds;
+  if (!asks_for_kinds && !needs.bank && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
   bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
                 options_.hypotheses, persons_, options_.response_noise, constraints_of_components(*atlas_));
 }

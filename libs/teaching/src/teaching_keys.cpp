@@ -21,9 +21,9 @@ inline constexpr std::array kWordsFor<TeachingObjective>{WordFor{TeachingObjecti
                                                          WordFor{TeachingObjective::kRegret, "regret"},
                                                          WordFor{TeachingObjective::kWorstMember, "worst-member"}};
 template <>
-inline constexpr std::array kWordsFor<HypothesesAbout>{WordFor{HypothesesAbout::kAbility, "ability"},
-                                                       WordFor{HypothesesAbout::kKnownComponents, "known-components"},
-                                                       WordFor{HypothesesAbout::kNothing, "average"}};
+inline constexpr std::array kWordsFor<HypothesesAbout>{
+    WordFor{HypothesesAbout::kAbility, "ability"}, WordFor{HypothesesAbout::kKnownComponents, "known-components"},
+    WordFor{HypothesesAbout::kNothing, "average"}, WordFor{HypothesesAbout::kKinds, "kinds"}};
 
 namespace {
 constexpr double kManyPeriods = 100'000;
@@ -60,7 +60,7 @@ std::span<const OptionKey<TeachingOptions>> teacher_keys() {
       option_key<T, &T::objective>("objective", "what strategies that look ahead maximise"),
       option_key<T, &T::hypotheses_about>("hypotheses",
                                           "what the teacher's hypotheses about a member differ in: 'ability', "
-                                          "'known-components' or, in nothing, 'average'"),
+                                          "'known-components', 'kinds' of learners or, in nothing, 'average'"),
   };
   return keys;
 }

@@ -37,14 +37,18 @@ void TeamBank::take_answers(std::size_t i, std::span<const Verdict> verdicts, st
   informed_[i].diffuse(response_noise_, random_[i].split(period).split("response noise"));
 }
 
-void TeamBank::watch(const Lesson& lesson, const std::vector<bool>& present) {
+void TeamBank::watch(const Atlas& atlas, const Lesson& lesson, const std::vector<bool>& present, double minutes) {
   std::vector<HalfSpace> conveyed;
+  std::vector<StartIndex> demos;
   for (const auto& shown : lesson.demonstrations) {
+    demos.push_back(shown.demo);
     conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
   }
   for (std::size_t i = 0; i < size(); ++i) {
     if (begins(lesson.component)) members_[i].begin_component();
+    if (lesson.period > 1) members_[i].let_time_pass(minutes, lesson.period);
     if (!present[i]) continue;
+    members_[i].see(atlas, demos);
     members_[i].watch(conveyed, lesson.period);
     inform(i, conveyed, random_[i].split(lesson.period).split("demonstration"));
   }

@@ -49,6 +49,20 @@ UnitValue::UnitValue(TeachingCache& cache, std::size_t component,
   grade_points(cache, component);
 }
 
+Imitation UnitValue::imitation() const {
+  std::vector<double> weights(num_members_, 0.0);
+  for (const auto& part : parts_) weights[part.member] += part.weight;
+  Imitation all;
+  double temperature = 0.0;
+  for (const auto& part : parts_) {
+    const double share = part.weight / (weights[part.member] * static_cast<double>(num_members_));
+    all.probability += share * part.imitation.probability;
+    temperature += share * part.imitation.probability * part.imitation.temperature;
+  }
+  if (all.probability > 0.0) all.temperature = temperature / all.probability;
+  return all;
+}
+
 void UnitValue::add_part(std::size_t member, const MemberHypothesis& hypothesis, std::size_t points,
                          RandomStream random) {
   const auto& belief = *hypothesis.belief;
@@ -58,7 +72,7 @@ void UnitValue::add_part(std::size_t member, const MemberHypothesis& hypothesis,
     mass_.push_back(static_cast<double>(draw.count));
   }
   parts_.push_back(
-      {member, hypothesis.weight, begin, mass_.size(),
+      {member, hypothesis.weight, hypothesis.imitation, begin, mass_.size(),
        HalfSpaceLikelihood{std::min(hypothesis.shown_ability, kMostCertain), options_.likelihood, dimension_},
        HalfSpaceLikelihood{std::min(hypothesis.feedback_ability, kMostCertain), options_.likelihood, dimension_}});
 }
@@ -131,7 +145,7 @@ double UnitValue::of(std::span<const ConstraintSet> shown, const ConstraintSet& 
       worth += product_[i] * worth_[i];
     }
     weights[part.member] += part.weight;
-    if (mass > 0.0) members[part.member] += part.weight * worth / mass;
+    if (mass > 0.0) members[part.member] += part.weight * (1.0 - part.imitation.probability) * worth / mass;
   }
 
   double sum = 0.0;

@@ -10,6 +10,7 @@
 #include "kith/belief/particle_belief.hpp"
 #include "kith/core/integer_vector.hpp"
 #include "kith/learners/answer_evidence.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
 
 namespace kith {
 
@@ -90,6 +91,9 @@ class Learner {
   [[nodiscard]] virtual std::optional<LearningAbilities> learning_abilities(bool /*begins_component*/) const {
     return std::nullopt;
   }
+
+  /// How often answers copy a demonstration instead, for teachers who presume that.
+  [[nodiscard]] virtual Imitation imitation() const { return {}; }
 
   /// Some `n` weights (or fewer) that the person takes the robot's to be, as they imagine what it will do; none if
   /// the model does not imagine any. For studies with teacher.learner_counterfactuals = "self".

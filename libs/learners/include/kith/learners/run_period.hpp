@@ -7,7 +7,6 @@
 
 #include "kith/learners/discussion.hpp"
 #include "kith/learners/learner.hpp"
-#include "kith/learners/pace.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -17,7 +16,6 @@ struct PeriodOptions {
   /// If positive, learners work out for themselves what a demonstration conveys, from so many weights that they take
   /// the robot's to be, instead of learning what it conveys to the teacher's counterfactuals.
   std::size_t own_counterfactuals = 0;
-  Pace pace{};                           ///< For people who forget with time.
   DiscussionChoice discussion{};         ///< How the group talks about its answers.
   std::span<const RandomStream> talk{};  ///< One per seat: what each person draws then; empty if they do not talk.
 };
@@ -25,8 +23,9 @@ struct PeriodOptions {
 /// Whether the session's lesson is the first one of its component: Learner::begin_component() is called before it.
 [[nodiscard]] bool begins_component(const Session& session);
 
-/// The time that the period before took passes for a learner. @param session  in which a lesson was chosen.
-void pass_time(Learner& learner, const Session& session, const PeriodOptions& options = {});
+/// The time that the period before took (TeachingOptions::pace) passes for a learner. @param session  in which a lesson
+/// was chosen.
+void pass_time(Learner& learner, const Session& session);
 
 /// A learner watches the demonstrations of a lesson. @param cache  of the session's atlas; changes no result.
 void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options = {});

@@ -13,7 +13,8 @@
 /// codebook and its place in the journal. `declare(fields, Declared<Record>{})` tells `fields` about the record:
 ///
 ///   fields.column(member, words, options)  a member that the journal keeps and a column shows
-///   fields.columns(member, list, options)  a member that the journal keeps, with one column per value
+///   fields.columns(member, list, options)  a member that the journal keeps, with one column per value; values that
+///                                          `list` does not require may be missing
 ///   fields.derived(function, words)        a column that follows from others; the journal does not keep it. The
 ///                                          function may also take the study
 ///   fields.part(member, options)           a member that is a record with lines of its own, or an optional one
@@ -38,6 +39,7 @@ struct RecordColumn {
 [[nodiscard]] bool has_forecasts(const Study& study);
 [[nodiscard]] bool has_estimates(const Study& study);
 [[nodiscard]] bool has_discussions(const Study& study);
+[[nodiscard]] bool asks_for_kinds(const Study& study);
 [[nodiscard]] bool has_belief_quality(const Study& study);
 [[nodiscard]] bool has_subgroups(const Study& study);
 [[nodiscard]] bool has_world_names(const Study& study);
@@ -47,6 +49,8 @@ struct RecordColumn {
 [[nodiscard]] std::vector<Column> rule_columns(const Study& study);
 /// Of what describes a person, by any model of the study; missing for people of models that do not have it.
 [[nodiscard]] std::vector<Column> trait_columns(const Study& study);
+/// Of the probability of every kind of learner, if the hypotheses are about these; in the rows of people only.
+[[nodiscard]] std::vector<Column> kind_columns(const Study& study);
 [[nodiscard]] std::vector<Column> forecast_done_columns(const Study& study);
 
 namespace columns {
@@ -154,6 +158,12 @@ void declare(Fields& fields, Declared<EstimateRecord>) {
   fields.column(&R::right, measure("right",
                                    "The same probability under the member's own belief. In the rows of components "
                                    "only."));
+  fields.columns(&R::p_kinds, kind_columns, {.since = 10});
+  fields.column(&R::kind,
+                {"kind",
+                 "The kind of learner that the member is with a probability of at least 0.8, else 'cannot tell yet'; "
+                 "with teacher.hypotheses = \"kinds\". In the row of the person only."},
+                {.when = asks_for_kinds, .since = 10});
 }
 
 template <typename Fields>

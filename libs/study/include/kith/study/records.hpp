@@ -149,6 +149,8 @@ struct EstimateRecord {
   std::optional<double> knew{};          ///< Mass of the member's belief then in the component's constraints.
   std::optional<double> p_right{};       ///< That the member answers a random test of the component correctly.
   std::optional<double> right{};         ///< The same under the member's own belief.
+  std::vector<double> p_kinds{};         ///< That the member is of each kind, in the order of kinds_of().
+  std::optional<std::string> kind{};     ///< kind_word()
   friend bool operator==(const EstimateRecord&, const EstimateRecord&) = default;
 };
 /// What EstimateRecord::p_proficient comes to: "proficient" from 0.8, "not proficient" up to 0.2, else "cannot tell
@@ -162,7 +164,7 @@ struct TeamExam {
   double worst_share_right = 0.0;  ///< The smallest of a member.
 };
 
-/// What teaching a team took. Minutes are those of StudySpec::pace.
+/// What teaching a team took. Minutes are those of TeachingOptions::pace.
 struct TeamCost {
   std::size_t person_periods = 0;  ///< Periods that members took part in, summed over members.
   double minutes = 0.0;            ///< Of the teacher, summed over sessions.

@@ -10,7 +10,6 @@
 #include "kith/domains/domain.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/learners/learner_model.hpp"
-#include "kith/learners/pace.hpp"
 #include "kith/study/group_options.hpp"
 #include "kith/teaching/session.hpp"
 
@@ -106,7 +105,6 @@ struct StudySpec {
   TeachingOptions teaching;
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
   Grouping grouping = Grouping::kTogether;    ///< Of every strategy but the baseline.
-  Pace pace{};
   RecordLevel record = RecordLevel::kPeriod;
   ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
   std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.

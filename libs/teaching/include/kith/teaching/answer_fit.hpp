@@ -44,6 +44,14 @@ class AnswerFit {
   AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
             std::span<const Verdict> verdicts);
 
+  /// An answer that was given.
+  struct Given {
+    StartIndex demo;
+    IntegerVector counts;
+  };
+  [[nodiscard]] std::span<const Given> given() const noexcept { return given_; }
+  [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
+
   /// Tests that were answered.
   [[nodiscard]] std::size_t num_tests() const noexcept { return tests_.size(); }
   /// Of them, answered right.
@@ -86,6 +94,7 @@ class AnswerFit {
   const Atlas* atlas_;
   const BehaviourTables* tables_;  // the atlas's; nothing where it has none
   std::vector<OneTest> tests_;
+  std::vector<Given> given_;            // in the same order
   std::vector<HalfSpace> half_spaces_;  // that tests name, each once
   std::size_t num_right_ = 0;
   std::array<Rating, 2> guesses_;

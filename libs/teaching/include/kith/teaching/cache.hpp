@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/exam.hpp"
+#include "kith/teaching/imitation_table.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/start_sample.hpp"
@@ -75,6 +77,9 @@ class TeachingCache {
   /// The same, for those that outlive this object.
   const std::shared_ptr<const Exam>& shared_exam();
 
+  /// What imitating demonstrations comes to in the exam, made when first asked for; until trim().
+  ImitationTable& imitation();
+
   /// The starts of a component by which a session may stop, and those by which units are judged where behaviours are
   /// not tabulated; made when first asked for. The references stay valid as long as this object.
   const std::shared_ptr<const StartSample>& starts_of(std::size_t component);
@@ -93,6 +98,7 @@ class TeachingCache {
   std::shared_ptr<PolicyPartitions> partitions_;
   std::unique_ptr<Known> known_;
   std::shared_ptr<const Exam> exam_;
+  std::optional<ImitationTable> imitation_;
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
   std::vector<std::shared_ptr<const StartSample>> tests_;   // per component
   std::list<PriorCover> covers_;                            // few: one per prior and filter size of a study

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
@@ -9,8 +11,20 @@
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/non_learners.hpp"
+#include "kith/teaching/presumed_learner.hpp"
 
 namespace kith {
+
+/// A kind of people and the probability that somebody is one of them.
+struct KindProbability {
+  std::string kind;  ///< As in study files.
+  double probability = 0.0;
+  friend bool operator==(const KindProbability&, const KindProbability&) = default;
+};
+/// The kind that somebody is with a probability of at least 0.8, else "cannot tell yet".
+[[nodiscard]] std::string kind_word(std::span<const KindProbability> kinds);
+/// The kinds that hypotheses are about, each once, in their order, with their probabilities beforehand.
+[[nodiscard]] std::vector<KindProbability> kinds_of(std::span<const LearnerHypothesis> hypotheses);
 
 /// Who is this? A bank of hypotheses about one member, with the belief that the person would have under each, and of
 /// people who do not learn (NonLearners).
@@ -20,7 +34,8 @@ namespace kith {
 /// the belief of hypothesis h (AnswerFit), and the weights are normalised together with those of people who do not
 /// learn. The ability of hypothesis h grows by its confirm_gain or correct_gain, as observed, and is reset when a
 /// component begins. A hypothesis that somebody knows components begins with the belief after their constraints, taken
-/// in with kAbilityOfKnowing.
+/// in with kAbilityOfKnowing. Hypotheses about other kinds of people
+/// (PresumedKind) say themselves what those believe and how probable that makes the answers.
 class LearnerBank {
  public:
   /// @param random  the root of what moves the beliefs' points.
@@ -32,6 +47,9 @@ class LearnerBank {
               std::span<const std::vector<HalfSpace>> components = {});
 
   void begin_component();
+  /// The time since the period before, and what is shown: as Learner::let_time_pass() and see(), before watch().
+  void let_time_pass(double minutes, std::size_t period);
+  void see(const Atlas& atlas, std::span<const StartIndex> demonstrations);
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period);
   /// What the person answered; tests without an answer say nothing.
   void see_answers(const AnswerFit& fit);
@@ -40,11 +58,15 @@ class LearnerBank {
   [[nodiscard]] std::span<const LearnerHypothesis> hypotheses() const noexcept { return hypotheses_; }
   /// Posterior probabilities, one per hypothesis, if the person learns; sum to 1.
   [[nodiscard]] std::span<const double> weights() const noexcept { return weights_; }
+  /// The same beforehand.
+  [[nodiscard]] std::vector<double> weights_beforehand() const;
   /// Posterior probability that the person learns (still).
   [[nodiscard]] double probability_of_learning() const noexcept { return learns_; }
   /// See NonLearners::odds_of_learning(); infinite if everybody learns.
   [[nodiscard]] double odds_of_learning() const noexcept { return others_.odds_of_learning(learns_); }
-  [[nodiscard]] const ParticleBelief& belief(std::size_t h) const { return beliefs_[h]; }
+  [[nodiscard]] const ParticleBelief& belief(std::size_t h) const { return people_[h].person->belief(); }
+  /// What kind of learner this is, if the person learns: the kinds of the hypotheses, each once, in their order.
+  [[nodiscard]] std::vector<KindProbability> kinds() const;
   /// The hypotheses as a strategy compares units with them: if the person learns, as lessons change nobody else. @param
   /// begins  whether a component begins.
   [[nodiscard]] std::vector<MemberHypothesis> as_members(bool begins) const;
@@ -69,24 +91,33 @@ class LearnerBank {
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const;
 
   friend bool operator==(const LearnerBank& a, const LearnerBank& b) {
-    return a.hypotheses_ == b.hypotheses_ && a.weights_ == b.weights_ && a.abilities_ == b.abilities_ &&
-           a.beliefs_ == b.beliefs_ && a.learns_ == b.learns_ && a.others_ == b.others_;
+    return a.hypotheses_ == b.hypotheses_ && a.weights_ == b.weights_ && a.people_ == b.people_ &&
+           a.learns_ == b.learns_ && a.others_ == b.others_;
   }
 
  private:
   struct AbilityBin {
     double low, high, probability;
   };
-  void observe(std::size_t h, std::span<const HalfSpace> half_spaces, RandomStream random);
+  // Copied with the person.
+  struct Presumed {
+    std::unique_ptr<PresumedLearner> person;
+    PointCells cells{};
+    explicit Presumed(std::unique_ptr<PresumedLearner> learner) : person{std::move(learner)} {}
+    Presumed(const Presumed& other) : person{other.person->clone()}, cells{other.cells} {}
+    Presumed& operator=(const Presumed& other) { return *this = Presumed{other}; }
+    Presumed(Presumed&&) = default;
+    Presumed& operator=(Presumed&&) = default;
+    ~Presumed() = default;
+    friend bool operator==(const Presumed& a, const Presumed& b) {
+      return a.person->ability() == b.person->ability() && a.person->belief() == b.person->belief();
+    }
+  };
   [[nodiscard]] std::vector<AbilityBin> ability_bins() const;
 
-  LikelihoodForm likelihood_;
   std::vector<LearnerHypothesis> hypotheses_;
-  RandomStream random_;
   std::vector<double> weights_;
-  std::vector<double> abilities_;  // now
-  std::vector<ParticleBelief> beliefs_;
-  std::vector<PointCells> cells_;
+  std::vector<Presumed> people_;
   double learns_ = 1.0;  // with the weights of others_ 1
   NonLearners others_;
   bool has_begun_ = false;  // some lesson was watched

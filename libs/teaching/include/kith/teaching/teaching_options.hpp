@@ -11,6 +11,7 @@
 #include "kith/core/option_key.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
+#include "kith/teaching/pace.hpp"
 #include "kith/teaching/stop_rule.hpp"
 
 namespace kith {
@@ -33,6 +34,7 @@ enum class HypothesesAbout {
   kAbility,          ///< How well people learn: TeachingOptions::hypotheses.
   kKnownComponents,  ///< Which components they know beforehand: grid_of_known_components().
   kNothing,          ///< Nothing: everybody is taken for a person of average ability, one_hypothesis().
+  kKinds,            ///< What kind of learner they are, and how well they learn: TeachingOptions::kinds.
 };
 
 /// How a group is taught; every field is a key of the study file.
@@ -69,6 +71,9 @@ struct TeachingOptions {
   /// What members may be like, as the bank has it that strategies and stopping rules may ask for; see LearnerBank.
   std::vector<LearnerHypothesis> hypotheses = grid_of_hypotheses();
   HypothesesAbout hypotheses_about = HypothesesAbout::kAbility;
+  /// The hypotheses of HypothesesAbout::kKinds, with which the bank is always kept.
+  std::vector<LearnerHypothesis> kinds{};
+  Pace pace{};                ///< for people who forget with time, and for all minutes that are assumed
   bool keep_bank = false;     ///< the bank is kept even if nobody reads it
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules

@@ -32,8 +32,8 @@ class TeamBank {
                const std::vector<LearnerHypothesis>& hypotheses, const RandomStream& person,
                std::span<const std::vector<HalfSpace>> components = {});
 
-  /// The members present watched a lesson.
-  void watch(const Lesson& lesson, const std::vector<bool>& present);
+  /// The members present watched a lesson. @param minutes  that the period before took; 0 before the first.
+  void watch(const Atlas& atlas, const Lesson& lesson, const std::vector<bool>& present, double minutes = 0.0);
   /// The tests were closed; the feedback that follows is taken in, too.
   /// @param answers  per member; empty for those who gave none.
   void close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,

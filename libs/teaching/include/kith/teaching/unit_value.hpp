@@ -26,6 +26,8 @@ namespace kith {
 /// behaviours are not tabulated, tests are those of StartSample::spread_over_facets(), and `regret` is taken for
 /// `right`.
 ///
+/// Of people who imitate with some probability, only the other answers count here; see imitation().
+///
 /// Beliefs are represented by `points` systematic draws from each, the same for all units that are compared.
 /// The order of the members changes nothing: sums are taken in the order of their tie breaks.
 class UnitValue {
@@ -42,6 +44,10 @@ class UnitValue {
   UnitValue(TeachingCache& cache, std::size_t component, std::span<const std::vector<MemberHypothesis>> members,
             std::span<const std::uint64_t> tie_breaks, const Options& options, RandomStream random);
 
+  /// How many of the answers of all members together are imitations, and the mean temperature of these.
+  [[nodiscard]] Imitation imitation() const;
+  [[nodiscard]] TeachingObjective objective() const noexcept { return options_.objective; }
+
   /// U of showing nothing.
   [[nodiscard]] double of_nothing() { return of({}, {}); }
   /// U of a unit. @param shown  per demonstration what it conveys. @param taught  the minimal set of all of them.
@@ -52,6 +58,7 @@ class UnitValue {
   struct Part {
     std::size_t member = 0;
     double weight = 1.0;
+    Imitation imitation;
     std::size_t begin = 0;
     std::size_t end = 0;
     HalfSpaceLikelihood shown;
