@@ -24,6 +24,7 @@
 #include "kith/store/event_file.hpp"
 #include "kith/store/session_audit.hpp"
 #include "kith/study/observed_team.hpp"
+#include "kith/teaching/kind_of_person.hpp"
 #include "page.hpp"
 #include "progress.hpp"
 
@@ -62,13 +63,17 @@ AuditOptions audit_options(const AuditCommandOptions& options, const StudySpec& 
 }
 
 // The people of one group.
-void judge(TeachingCache& cache, const AuditOptions& how, std::vector<Observed>& people) {
+void judge(TeachingCache& cache, const AuditOptions& how, const TeachingOptions& teaching,
+           std::vector<Observed>& people) {
   if (people.empty()) return;
   const auto& first = people.front().person;
+  const auto random = RandomStream{1}.split("audit").split(first.team).split(first.room);
+  for (std::size_t i = 0; teaching.hypotheses_about == HypothesesAbout::kKinds && i < people.size(); ++i) {
+    people[i].person.kinds = kinds_after(cache, teaching, people[i].periods, random.split("kinds").split(i));
+  }
   std::vector<std::vector<ObservedPeriod>> periods;
   for (auto& person : people) periods.push_back(std::move(person.periods));
-  auto audits =
-      Auditor{cache, how}.audit_group(periods, RandomStream{1}.split("audit").split(first.team).split(first.room));
+  auto audits = Auditor{cache, how}.audit_group(periods, random);
   for (std::size_t i = 0; i < people.size(); ++i) people[i].person.audit = std::move(audits[i]);
 }
 
@@ -139,7 +144,8 @@ class RunAudit {
         for_each_index(records_.size(), {.threads = options_.threads, .on_progress = on_progress}, [&](std::size_t i) {
           auto cache = caches.take();
           judged[i] = people_of(*atlas_, study_, records_[i]);
-          judge(*cache, audit_options(options_, spec_of(records_[i])), judged[i]);
+          const auto& spec = spec_of(records_[i]);
+          judge(*cache, audit_options(options_, spec), spec.teaching, judged[i]);
           caches.give_back(std::move(cache));
         });
     progress.finish();
@@ -221,6 +227,7 @@ class AuditText {
       group = person.group;
       out_ += "\n" + title_of(person) + "\n";
       if (const auto caution = caution_in_words(person.audit); !caution.empty()) line(caution, 2);
+      if (!person.kinds.empty()) line("kind of learner: " + kinds_in_words(person.kinds), 2);
       for (const auto& audit : person.audit.components) component(audit);
     }
     return out_;

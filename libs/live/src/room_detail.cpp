@@ -170,6 +170,11 @@ class RoomDetailPage {
           member["probability"] = violates;
         }
       }
+      if (session.options().hypotheses_about == HypothesesAbout::kKinds) {
+        const auto kinds = session.bank()->member(m).kinds();
+        member["kind"] = kind_word(kinds);
+        for (const auto& [kind, probability] : kinds) member["kinds"][kind] = probability;
+      }
       list.push_back(std::move(member));
     }
     return list;

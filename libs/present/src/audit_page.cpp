@@ -12,6 +12,7 @@
 #include "kith/present/audit_report.hpp"
 #include "kith/present/board_svg.hpp"
 #include "kith/present/picture.hpp"
+#include "kith/teaching/kind_of_person.hpp"
 
 namespace kith {
 namespace {
@@ -244,6 +245,7 @@ class Page {
     out_ += tag("h3", title_of(person), fmt::format("id=\"{}\"", anchor(person)));
     const auto caution = caution_in_words(person.audit);
     if (!caution.empty()) out_ += tag("p", caution, "class=\"caution\"");
+    if (!person.kinds.empty()) out_ += tag("p", "Kind of learner: " + kinds_in_words(person.kinds) + ".");
     for (const auto& audit : person.audit.components) component(audit);
   }
 

@@ -260,6 +260,9 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"learning", person.audit.learning},
                       {"guessing", person.audit.guessing},
                       {"components", std::move(audits)}});
+    if (person.kinds.empty()) continue;
+    people.back()["kind"] = kind_word(person.kinds);
+    for (const auto& [kind, probability] : person.kinds) people.back()["kinds"][kind] = probability;
   }
 
   // People of a group stand together.

@@ -7,6 +7,7 @@
 #include "kith/live/taught_people.hpp"
 #include "kith/store/session_review.hpp"
 #include "kith/store/session_study.hpp"
+#include "kith/teaching/kind_of_person.hpp"
 
 namespace kith {
 namespace {
@@ -39,12 +40,13 @@ TaughtRoom taught_in(EventFile& file, const StoredRoom& stored, const std::share
   return result;
 }
 
-std::vector<AuditedPerson> judged(const TaughtRoom& room, TeachingCache& cache, const AuditOptions& options) {
+std::vector<AuditedPerson> judged(const TaughtRoom& room, TeachingCache& cache, const AuditOptions& options,
+                                  const TeachingOptions& teaching) {
   const auto& [setup, taught] = room;
+  const auto random = RandomStream{1}.split("audit").split(std::uint64_t{0}).split(setup.id);
   std::vector<std::vector<ObservedPeriod>> periods;
   for (const auto& one : taught) periods.push_back(one.periods);
-  auto audits = Auditor{cache, options}.audit_group(
-      periods, RandomStream{1}.split("audit").split(std::uint64_t{0}).split(setup.id));
+  auto audits = Auditor{cache, options}.audit_group(periods, random);
   std::vector<AuditedPerson> people;
   for (std::size_t i = 0; i < taught.size(); ++i) {
     AuditedPerson person;
@@ -55,6 +57,9 @@ std::vector<AuditedPerson> judged(const TaughtRoom& room, TeachingCache& cache, 
     person.type = setup.composition.at(taught[i].member);
     person.simulated = !taught[i].is_person;
     person.audit = std::move(audits[i]);
+    if (teaching.hypotheses_about == HypothesesAbout::kKinds) {
+      person.kinds = kinds_after(cache, teaching, taught[i].periods, random.split("kinds").split(i));
+    }
     people.push_back(std::move(person));
   }
   return people;
@@ -77,7 +82,7 @@ SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
     if (options.on_progress) options.on_progress(i, rooms.size());
     const auto room = taught_in(file, rooms[i], result.study, cache);
     if (room.people.empty()) continue;
-    for (auto& person : judged(room, cache, report.options)) report.people.push_back(std::move(person));
+    for (auto& person : judged(room, cache, report.options, teaching)) report.people.push_back(std::move(person));
   }
   if (report.people.empty()) {
     throw refusal(ErrorKind::kInfeasible, "E1115", "no room of " + options.source + " has had a lesson yet",

@@ -134,6 +134,8 @@ export interface MemberBelief {
   knows: number; // probability of predicting the current component rightly
   thinks?: string; // the misconception that is most probable
   probability?: number; // of it
+  kind?: string; // the kind of learner, or that it cannot be told yet; if the study asks for kinds
+  kinds?: Record<string, number>; // the probability of each
 }
 
 export interface Truth {

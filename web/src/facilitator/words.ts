@@ -137,6 +137,7 @@ export const kTerms = {
   runners_up: 'Runners-up: the demonstrations with the next largest gains. They were not shown. A gain of 2\u00d7 means that half of the rewards that were still possible would be ruled out.',
   knows: 'Knows this part: the probability, by the teacher\u2019s belief about this person, that they predict all of the current component rightly.',
   thinks: 'Likely thinks: the misconception about what was taught so far that is most probable by the teacher\u2019s belief about this person. Nothing is named below 10\u00a0%.',
+  learner_kind: 'Kind of learner: how this person seems to learn and answer, by their answers so far. A kind is named from a probability of 80\u00a0% on.',
   unsaved: 'Unsaved: events that have been accepted but not yet written to disk. The browser gets an acknowledgement only after the write.',
 };
 export type Term = keyof typeof kTerms;

@@ -40,6 +40,7 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const byPlace = new Map(detail.answers.map((answer) => [`${answer.seat}/${answer.period}/${answer.test}`, answer]));
   const hasStageTimes = room.seats.some(({ stage_since_ms }) => stage_since_ms !== undefined);
   const beliefs = new Map((detail.members ?? []).map((one) => [one.member, one]));
+  const hasKinds = [...beliefs.values()].some(({ kind }) => kind !== undefined);
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
   // The latest answers are at the right end, which has to be seen.
   const box = useRef<HTMLDivElement>(null);
@@ -68,6 +69,11 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
             {beliefs.size > 0 && (
               <th scope="col">
                 <Explained term="thinks">Likely thinks</Explained>
+              </th>
+            )}
+            {hasKinds && (
+              <th scope="col">
+                <Explained term="learner_kind">Kind</Explained>
               </th>
             )}
             {periods.map((period) => (
@@ -111,6 +117,7 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
               <td class="number">{timeText(seat, now)}</td>
               <td class="number">{rightText(detail.answers, seat)}</td>
               {beliefs.size > 0 && <Thought belief={beliefs.get(memberOfSeat(seat))} isOut={seat.presence === 'left'} />}
+              {hasKinds && <Kind belief={beliefs.get(memberOfSeat(seat))} isOut={seat.presence === 'left'} />}
               {columns.map(({ period, test, isFirst }) => (
                 <Cell answer={byPlace.get(`${seat.seat}/${period}/${test}`)} where={`period ${period}, test ${test}`} longest={longest} isFirst={isFirst} />
               ))}
@@ -141,6 +148,20 @@ function Thought({ belief, isOut }: { belief: MemberBelief | undefined; isOut: b
         {thinks ?? ''}
       </td>
     </>
+  );
+}
+
+// What kind of learner somebody seems to be, with all probabilities from 1 % on.
+function Kind({ belief, isOut }: { belief: MemberBelief | undefined; isOut: boolean }): JSX.Element {
+  if (!belief?.kind || isOut) return <td />;
+  const all = Object.entries(belief.kinds ?? {})
+    .map(([kind, probability]) => ({ kind, percent: Math.round(100 * probability) }))
+    .filter(({ percent }) => percent > 0)
+    .sort((a, b) => b.percent - a.percent);
+  return (
+    <td class="thinks" data-tip={all.map(({ kind, percent }) => `${kind} ${percent} %`).join(', ')}>
+      {belief.kind}
+    </td>
   );
 }
 

@@ -6,6 +6,7 @@
 
 #include "kith/explain/audit.hpp"
 #include "kith/present/json.hpp"
+#include "kith/teaching/learner_bank.hpp"
 
 namespace kith {
 
@@ -19,6 +20,7 @@ struct AuditedPerson {
   char type = 'N';         ///< Learner type of the place.
   bool simulated = true;   ///< Whether a simulated learner answered.
   PersonAudit audit;
+  std::vector<KindProbability> kinds{};  ///< What kind of learner this is, if the study asks for it; else empty.
 };
 
 /// "Member 2 (P)", "Member 2 (P, a person in seat 4)".
