@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# transcripts.sh compare|update KITH FOLDER: the transcript of one team per strategy and per learner model that kith
-# knows against (or into) FOLDER/STRATEGY.txt and FOLDER/learner-KIND.txt.
+# transcripts.sh compare|update KITH FOLDER: the transcript of one team per strategy, learner model and way of talking
+# that kith knows against (or into) FOLDER/STRATEGY.txt, learner-KIND.txt and discussion-MODEL.txt.
 set -uo pipefail
 mode=$1 kith=$2 folder=$3
 unset "${!KITH_@}"
@@ -12,6 +12,9 @@ for strategy in $(names_of strategies); do command[$strategy]="--strategy $strat
 # With "bayesian", the first kind, as the teacher assumes: that is what the strategies have.
 for kind in $(names_of learners | tail -n +2); do
   command[learner-$kind]="--strategy joint --set learner.N.kind=\"$kind\" --set learner.P.kind=\"$kind\""
+done
+for model in $(names_of discussions | tail -n +2); do
+  command[discussion-$model]="--strategy joint --set group.discussion.model=\"$model\""
 done
 if (( ${#command[@]} < 2 )); then
   echo "kith explain strategies does not list strategies"

@@ -101,8 +101,10 @@ std::string entry_text(const ErrorEntry& entry, const Console& console) {
 }
 
 void declare(OptionList& list, ExplainOptions& options) {
-  list.text("topic", options.id, "TOPIC",
-            "An id, such as E0207, or learners, strategies, beliefs or stop-rules; without one, all ids are listed");
+  list.text(
+      "topic", options.id, "TOPIC",
+      "An id, such as E0207, or learners, strategies, beliefs, stop-rules or discussions; without one, all ids are "
+      "listed");
 }
 
 int run(const ExplainOptions& options, Console& console) {
@@ -131,8 +133,9 @@ int run(const ExplainOptions& options, Console& console) {
     const auto by_id = nearest_word(id, known);
     const auto nearest = by_id.empty() ? nearest_word(options.id, known) : by_id;
     refuse("kith has no error or warning '" + options.id + "'",
-           nearest.empty() ? "`kith explain` lists all ids; learners, strategies, beliefs and stop-rules are topics"
-                           : "did you mean '" + nearest + "'?");
+           nearest.empty()
+               ? "`kith explain` lists all ids; learners, strategies, beliefs, stop-rules and discussions are topics"
+               : "did you mean '" + nearest + "'?");
   }
   console.print(entry_text(*found, console));
   return 0;

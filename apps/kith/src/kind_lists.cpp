@@ -1,10 +1,11 @@
-// The registries of learner models, strategies, rules of aggregation and stop rules, as `kith explain` and help show
-// them.
+// The registries of learner models, strategies, rules of aggregation, stop rules and ways of talking, as `kith explain`
+// and help show them.
 #include "kind_lists.hpp"
 
 #include <algorithm>
 
 #include "kith/belief/aggregation.hpp"
+#include "kith/learners/discussion.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/present/wrapped.hpp"
 #include "kith/teaching/stop_rule.hpp"
@@ -41,7 +42,10 @@ std::vector<KindList> kind_lists() {
   for (const auto& rule : aggregation_rules()) beliefs.rows.push_back({rule.name, rule.description, {}});
   KindList stop_rules{"stop-rules", "stop.mastery, and stop.release where a rule says who is done", {}};
   for (const auto& kind : stop_rule_kinds()) stop_rules.rows.push_back({kind.name, kind.description, kind.parameters});
-  return {std::move(learners), std::move(strategies), std::move(beliefs), std::move(stop_rules)};
+  KindList discussions{"discussions", "group.discussion.model", {}};
+  for (const auto& one : discussion_models()) discussions.rows.push_back({one.name, one.description, one.parameters});
+  return {std::move(learners), std::move(strategies), std::move(beliefs), std::move(stop_rules),
+          std::move(discussions)};
 }
 
 std::string to_text(const KindList& list, const Console& console) {

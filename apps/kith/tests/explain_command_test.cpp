@@ -339,7 +339,7 @@ TEST(ExplainCommand, ListsKindsWithTheirParameters) {
   EXPECT_THAT(learners.out, HasSubstr("    ability.mean\n      a number in [0, 1]; required\n"));
   EXPECT_THAT(learners.out, HasSubstr("[jayaraman2024]"));
   const auto help = run_kith({"help", "study"}).out;
-  for (const std::string topic : {"learners", "strategies", "beliefs", "stop-rules"}) {
+  for (const std::string topic : {"learners", "strategies", "beliefs", "stop-rules", "discussions"}) {
     const auto text = run_kith({"explain", topic}).out;
     const std::regex kind{"\n([a-z-]+)\n    [a-z]"}, parameter{"\n    ([a-z_.]+)\n      [a-z]"};
     EXPECT_TRUE(std::regex_search(text, kind)) << topic;
@@ -349,7 +349,7 @@ TEST(ExplainCommand, ListsKindsWithTheirParameters) {
       EXPECT_THAT(help, HasSubstr((*it)[1].str()));
   }
   EXPECT_THAT(run_kith({"explain", "strategy"}).err,
-              HasSubstr("learners, strategies, beliefs and stop-rules are topics"));
+              HasSubstr("learners, strategies, beliefs, stop-rules and discussions are topics"));
 }
 
 // Every id that a source can report is explained, only once, and no other.

@@ -27,6 +27,7 @@ class Recorder : public TeamObserver {
     auto& period = sessions_.back().periods.back();
     period.responses = responses;
     period.feedback = feedback;
+    period.revised = session.history().back().revised;
     period.after = state_of(session, lesson, learners);
   }
 

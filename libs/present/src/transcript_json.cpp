@@ -181,6 +181,11 @@ class Converter {
       if (path) json.update(actions_json(domain_, *path));
     }
     json["shows"] = kith::to_json(verdict.half_spaces, d_);
+    if (i < period.revised.size() && !period.revised[i].empty() && period.revised[i][t]) {
+      const auto& last = period.feedback.revised[i][t];
+      json["revised"] = {
+          {"correct", last.correct}, {"regret", last.regret}, {"features", kith::to_json(*period.revised[i][t])}};
+    }
     return json;
   }
 

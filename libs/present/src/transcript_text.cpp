@@ -193,6 +193,21 @@ class TranscriptWriter {
       line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the closest possible test)"));
     }
     for (std::size_t i = 0; i < members_.size(); ++i) answer(period, t, i);
+    for (std::size_t i = 0; i < members_.size(); ++i) revised_answer(period, t, i);
+  }
+
+  // What the member says after the discussion, if it is something else.
+  void revised_answer(const TranscriptPeriod& period, std::size_t t, std::size_t i) {
+    if (i >= period.revised.size() || period.revised[i].empty()) return;
+    const auto& answer = period.revised[i][t];
+    if (!answer || answer == period.responses[i].answers[t]) return;
+    const auto& verdict = period.feedback.revised[i][t];
+    line(fmt::format("    member {} changes it after the discussion: {}: {}", members_[i], judged(verdict),
+                     counts_text(domain_, *answer)));
+  }
+
+  static std::string judged(const Verdict& verdict) {
+    return verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret);
   }
 
   void answer(const TranscriptPeriod& period, std::size_t t, std::size_t i) {
@@ -209,9 +224,7 @@ class TranscriptWriter {
     const auto described_path =
         path ? actions_text(domain_, atlas_.id(demo).mdp, *path) + " (" + counts_text(domain_, counts) + ")"
              : counts_text(domain_, counts);
-    line(fmt::format("    member {}: {}: {}", members_[i],
-                     verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret),
-                     described_path));
+    line(fmt::format("    member {}: {}: {}", members_[i], judged(verdict), described_path));
     const std::string shows = verdict.correct ? "evidence that they know " : "evidence that they believe ";
     for (const auto& half_space : verdict.half_spaces) line("      " + shows + described(domain_, half_space));
   }

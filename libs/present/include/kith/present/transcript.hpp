@@ -30,7 +30,8 @@ struct TranscriptPeriod {
   BeliefState before, after;
   std::vector<Learner::Response> responses;  ///< Per member.
   Feedback feedback;
-  std::optional<PeriodForecast> forecast{};  ///< What was expected of the rest, if StudySpec::forecast_sessions.
+  std::vector<std::vector<Answer>> revised{};  ///< As PastPeriod::revised.
+  std::optional<PeriodForecast> forecast{};    ///< What was expected of the rest, if StudySpec::forecast_sessions.
 };
 
 /// One session: the team's, or one member's in the baseline.
