@@ -1,6 +1,5 @@
-// What a page has no use for: threads, a look at the machine's memory, and files that `kith lesson` refuses.
+// What a page has no use for: threads, a look at the machine's memory, and built-in domains and studies.
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -8,8 +7,6 @@
 #include "kith/core/parallel_loop.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/files/base64.hpp"
-#include "kith/maps/occupancy_grid.hpp"
-#include "kith/models/model_formats.hpp"
 
 namespace kith {
 
@@ -43,10 +40,6 @@ std::string base64(std::string_view bytes) {
 }
 
 namespace detail {
-
-std::optional<OccupancyGrid> read_occupancy_grid(const ModelText&, const TomlPlace&, NamedFiles&, ModelReport&) {
-  throw std::logic_error{"occupancy grids cannot be read in a page"};
-}
 
 // The study of a page is a file.
 extern const std::string_view kQuickText, kPaperText, kPaperUncalibratedText;

@@ -130,12 +130,6 @@ StoreBatch batch_of(const LessonLog& log, std::int64_t number, std::int64_t now_
 }  // namespace
 
 Json lesson_document(const SessionStudy& session, const std::string& program) {
-  for (const auto& [name, text] : session.inputs) {
-    if (name.ends_with(".yaml") || name.ends_with(".yml")) {
-      throw Error{ErrorKind::kInfeasible, "the engine of a lesson file cannot read '" + name + "'",
-                  "draw the map in the domain file, or teach with 'kith serve'"};
-    }
-  }
   if (session.study->seats_by_ability()) {
     throw Error{ErrorKind::kInfeasible, "the study seats people by their screening, and in a lesson file there is one",
                 "leave group.screening.high out, or teach with 'kith serve'"};

@@ -15,8 +15,7 @@ namespace kith {
 /// room for one person: the first strategy of the study that can teach one person, and the first composition's first
 /// type of learner.
 /// @param program  name and version of what makes the file.
-/// @throws kith::Error (kInfeasible) if the engine of a page cannot read a file of the study, or people wait for a
-/// group in it.
+/// @throws kith::Error (kInfeasible) if people wait for a group in the study.
 [[nodiscard]] Json lesson_document(const SessionStudy& session, const std::string& program);
 
 /// What was added to a session.
