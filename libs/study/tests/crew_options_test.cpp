@@ -161,6 +161,10 @@ TEST(BeliefQuality, IsRecordedWhenAskedFor) {
     EXPECT_EQ(teams[i].knowledge, plain[i].knowledge);  // recording changes nothing else
   }
   EXPECT_THAT(crew_table({{spec}}, "teams.csv"), HasSubstr(",fewest_particles"));
+
+  auto others = teams;  // of learners of one's own, who need not have particles
+  for (auto& team : others) team.fewest_particles.reset();
+  EXPECT_NO_THROW(write_study_tables({{spec}}, others, [](std::string_view, std::string_view) {}));
 }
 
 }  // namespace

@@ -361,7 +361,7 @@ void declare(Fields& fields, Declared<TeamRecord>) {
                 measure(kFewestParticles,
                         "The smallest effective number of particles of a member's belief that satisfied what "
                         "the member was just shown. Below 10 the belief is impoverished."),
-                {.when = has_belief_quality, .required = has_belief_quality, .before = kExamShareRight});
+                {.when = has_belief_quality, .before = kExamShareRight});
   fields.kept(&R::discussions, 9);
 }
 
