@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include <string>
+#include <vector>
 
 #include "models_under_test.hpp"
-#include "scratch_folder.hpp"
 
 namespace kith {
 namespace {
@@ -59,18 +58,7 @@ TEST(ModelDrawing, ChangesNothingElse) {
 }
 
 TEST(ModelDrawing, NumberedStatesDrawThemselves) {
-  const auto there = std::filesystem::path{KITH_SOURCE_DIR} / "docs/examples";
-  const testing::ScratchFolder scratch;
-  std::filesystem::copy_file(there / "cliff.json", scratch.path() / "cliff.json");
-  std::ifstream file{there / "cliff.toml"};
-  std::ofstream copy{scratch.path() / "cliff.toml"};
-  for (std::string line; std::getline(file, line);) {
-    const bool is_drawing = line == "# [model.drawing]" || line == "# columns = 12";
-    copy << (is_drawing ? line.substr(2) : line) << '\n';
-  }
-  copy.close();
-
-  const Domain cliff = load_domain(scratch.path() / "cliff.toml");
+  const Domain cliff = load_domain(std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml");
   const GridMap picture = picture_of(cliff);
   EXPECT_EQ(picture.width(), 12);
   EXPECT_THAT(picture.draw(kFirst, std::nullopt),
