@@ -259,8 +259,8 @@ class Fitting {
     constexpr double kTolerable = 0.3;  // docs/fitting.md has figures below and above it
     if (mean <= kTolerable) return;
     report_.sentences.push_back(
-        "that is too noisy: abilities come out too low, and intervals too narrow; give more --replicates, or run "
-        "studies with more particles");
+        "that is too noisy: do not trust these estimates, and their intervals are too narrow; give more "
+        "--replicates, or run studies with more particles");
   }
 
   void compare_models() {
