@@ -55,7 +55,8 @@ class PresumedPerson final : public PresumedLearner {
 
 bool is_presumable(const LearnerModel& model) {
   const auto& usual = bayesian_model();
-  return model.has_ability && model.traits.size() == usual.traits.size();
+  const bool has_belief = num_particles(ParameterValues{model.parameters}) > 0;
+  return model.has_ability && has_belief && model.traits.size() == usual.traits.size();
 }
 
 // The defaults of the model's parameters, with every combination of the whole numbers of `fitted`.

@@ -10,6 +10,7 @@
 #include "kith/learners/run_period.hpp"
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/kind_of_person.hpp"
+#include "kith/teaching/known_components.hpp"
 
 namespace kith {
 namespace {
