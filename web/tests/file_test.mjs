@@ -79,7 +79,7 @@ describe('a lesson in a file', () => {
   });
 
   it('is a file that can be sent', () => {
-    assert.ok(statSync(join(folder, 'delivery.html')).size < 1_500_000);
+    assert.ok(statSync(join(folder, 'delivery.html')).size < 1_000_000);
   });
 
   it('teaches to the end, reloaded at every stage, and its log is that of a session', async () => {
@@ -231,6 +231,63 @@ describe('a lesson in a file', () => {
       await link.click();
       await page.locator('.teacher-picture .globe').first().waitFor();
     });
+  });
+
+  it('has a playground, where errors have their place and a crew is taught', async () => {
+    kith('lesson', 'item-delivery', '--playground', '-q', '-o', join(folder, 'playground.html'));
+    const context = await browser.newContext({ viewport: { width: 1500, height: 950 }, offline: true, reducedMotion: 'reduce' });
+    const page = await context.newPage();
+    const trouble = [];
+    page.on('console', (message) => trouble.push(message.text()));
+    page.on('pageerror', (error) => trouble.push(error.message));
+    await page.goto(pathToFileURL(join(folder, 'playground.html')).href);
+    page.setDefaultTimeout(240_000);
+    const settled = async () => {
+      await page.locator('section[aria-busy="true"]').waitFor();
+      await page.locator('section[aria-busy="false"]').waitFor();
+    };
+    const said = () => page.locator('.teacher-steps span').textContent();
+    await settled();
+    assert.match(await said(), /^at the end, after period \d+$/);
+    const area = page.getByLabel('Text of the domain');
+    const text = await area.inputValue();
+    await area.fill(text.replace('discount', 'discuont'));
+    await page.locator('.said.bad').first().waitFor();
+    assert.match(await page.locator('.said.bad').first().textContent(), /^domain.toml:11:1: error\[E0107\]: unknown key 'discuont'/);
+    assert.equal(await page.locator('.editor .bad').textContent(), '! 11\n');
+    await page.getByRole('button', { name: 'Go to line 11' }).click();
+    assert.match(await area.evaluate((own) => own.value.slice(own.selectionStart, own.selectionEnd)), /^discuont/);
+
+    await area.fill(text.replace('rubble = -3.0', 'rubble = -3.5'));
+    await settled();
+    await page.getByLabel('Strategy').selectOption('joint');
+    await settled();
+    assert.match(await said(), /^at the end, after period \d+$/);
+    assert.deepEqual(await page.locator('.said.bad').allTextContents(), []);
+    if (values.screenshots) await page.screenshot({ path: join(values.screenshots, 'playground.png'), fullPage: true });
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => window.axe.run());
+    assert.deepEqual(violations.filter(({ impact }) => ['serious', 'critical'].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes[0].html}`), []);
+    await page.getByRole('button', { name: 'Take the lesson yourself' }).click();
+    await page.waitForSelector('main.stage-consent');
+    assert.deepEqual(trouble, []);
+    await context.close();
+  });
+
+  it('teaches teams of a report again', async () => {
+    kith('study', 'paper', '--set', 'replicates=1', '-q', '-o', join(folder, 'run'));
+    kith('report', join(folder, 'run'), '--run', '-q', '-o', join(folder, 'report.html'));
+    const context = await browser.newContext({ offline: true });
+    const page = await context.newPage();
+    await page.goto(pathToFileURL(join(folder, 'report.html')).href);
+    for (const name of ['Joint, NNP', 'Individual low, PPP']) {
+      await page.locator('#team-choice').selectOption({ label: await page.locator('#team-choice option', { hasText: name }).first().textContent() });
+      await page.getByRole('button', { name: 'Teach this team again' }).click();
+      await page.getByText(/^Taught again: all \d+ lessons are those of the run/).waitFor({ timeout: 240_000 });
+    }
+    await page.locator('#team-choice').selectOption({ label: await page.locator('#team-choice option', { hasText: 'Baseline, NNP' }).first().textContent() });
+    assert.equal(await page.getByRole('button', { name: 'Teach this team again' }).count(), 0);
+    await context.close();
   });
 
   it('shows texts as texts, whatever is in them', async () => {

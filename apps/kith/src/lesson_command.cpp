@@ -24,6 +24,7 @@ struct LessonOptions {
   std::string out;
   std::vector<std::string> set;
   std::vector<std::string> origins;
+  bool is_playground = false;
 };
 
 bool is_study(const std::string& text) { return text.find("kith.study/") != std::string::npos; }
@@ -35,12 +36,20 @@ std::string quoted_toml(const std::string& text) {
   return quoted + "\"";
 }
 
+// What a crew of simulated people needs besides the study of a lesson.
+const std::vector<std::string> kCrew{
+    R"(design.strategies=["plan", "common", "joint", "individual-low"])", R"(design.compositions=["NNP"])",
+    R"(learner.P={ label = "somebody with experience", ability = { mean = 0.809, sd = 0.025 }, )"
+    R"(confirm_gain = { half_normal = 0.022 }, correct_gain = { half_normal = 0.052 } })"};
+
 StudyReading reading_of(const LessonOptions& options) {
   if (is_study(read_named(options.what).text)) return study_of(options.what, options.set);
   std::string text{detail::kLessonStudy};
   const std::string place = "\"DOMAIN\"";
   text.replace(text.find(place), place.size(), quoted_toml(options.what));
-  auto reading = parse_study(text, "the study of a lesson", {.overrides = options.set, .override_name = "--set"});
+  auto set = options.is_playground ? kCrew : std::vector<std::string>{};
+  set.insert(set.end(), options.set.begin(), options.set.end());
+  auto reading = parse_study(text, "the study of a lesson", {.overrides = set, .override_name = "--set"});
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
 }
@@ -78,15 +87,14 @@ void declare(OptionList& list, LessonOptions& options) {
   list.text("-o,--out", options.out, "FILE",
             "The lesson, one HTML file ('-' is standard output), or a .zip for learning systems")
       .required();
+  list.flag("--playground", options.is_playground,
+            "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
   list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
 }
 
 int run(const LessonOptions& options, Console& console) {
-  if (detail::kLessonFilePage.empty()) {
-    throw Error{ErrorKind::kInfeasible, "this kith was built without the engine of lesson files",
-                "build it with './run.sh --lesson', which says what it installs"};
-  }
+  require_engine();
   const WorkNotice notice{console, "preparing the lesson"};
   const auto reading = reading_of(options);
   console.show(reading.diagnostics);
@@ -95,6 +103,10 @@ int run(const LessonOptions& options, Console& console) {
   for (const auto& origin : options.origins) require_origin(origin);
   document["origins"] = options.origins;
   const bool is_package = std::filesystem::path{options.out}.extension() == ".zip";
+  if (options.is_playground) {
+    if (is_package) refuse("--playground makes a page, not a package for learning systems", "name a file.html with -o");
+    document["playground"] = true;
+  }
   if (is_package) {
     write_package(document, options.out, console);
   } else {
@@ -109,7 +121,8 @@ int run(const LessonOptions& options, Console& console) {
 
 void add_lesson(Commands& commands) {
   commands.add<LessonOptions>("lesson", "Write a lesson that teaches whoever opens it, in one file",
-                              {"kith lesson item-delivery -o lesson.html", "kith lesson study.toml -o lesson.zip"},
+                              {"kith lesson item-delivery -o lesson.html", "kith lesson study.toml -o lesson.zip",
+                               "kith lesson item-delivery --playground -o playground.html"},
                               declare, run);
 }
 

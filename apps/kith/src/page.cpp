@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "embedded.hpp"
 #include "kith/core/error.hpp"
 #include "kith/report/report.hpp"
 
@@ -14,6 +15,24 @@ std::string page_with(const std::string& document, std::string_view page) {
                 "install Node.js and npm and build it again, or use --json"};
   }
   return render_report(document, page);
+}
+
+void require_engine() {
+  if (!detail::kLessonFilePage.empty()) return;
+  throw Error{ErrorKind::kInfeasible, "this kith was built without the engine of lesson files",
+              "build it with './run.sh --lesson', which says what it installs"};
+}
+
+std::string page_with_engine(std::string_view page) {
+  constexpr std::string_view kFirst = "<script type=\"application/x-lzma\"",
+                             kDocument = "<script type=\"application/json\"";
+  constexpr std::string_view kStyles = "; style-src";
+  const auto begin = detail::kLessonFilePage.find(kFirst);
+  const auto parts = detail::kLessonFilePage.substr(begin, detail::kLessonFilePage.find(kDocument) - begin);
+  std::string whole{page};
+  whole.insert(whole.find(kDocument), parts);
+  whole.insert(whole.find(kStyles), " 'wasm-unsafe-eval' blob:; worker-src blob:");
+  return whole;
 }
 
 void write_page(std::string_view what, const std::string& page, const std::string& out, Console& console,

@@ -1,10 +1,16 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "embedded.hpp"
+#include "kith/core/baseline.hpp"
+#include "kith/core/error.hpp"
+#include "kith/live/room.hpp"
 #include "kith/report/report.hpp"
+#include "kith/runs/run_folder.hpp"
+#include "kith/store/session_study.hpp"
 #include "page.hpp"
 
 namespace kith::cli {
@@ -12,8 +18,38 @@ namespace {
 
 struct ReportCommandOptions {
   std::string folder;
-  std::string out;  ///< "-" is standard output; empty: report.html in the folder.
+  std::string out;    ///< "-" is standard output; empty: report.html in the folder.
+  bool runs = false;  ///< With the engine, to teach teams again.
 };
+
+// What the page needs to teach the teams that it lists: {"inputs", "teams": {number: the setup of a room of simulated
+// people}}.
+Json taught_again(const std::string& folder, const Json& report) {
+  if (!report.contains("lessons")) {
+    throw Error{ErrorKind::kInfeasible, "--run teaches simulated teams again, and this report lists no lessons of any",
+                "leave --run out"};
+  }
+  const auto reading = read_run_folder(folder);
+  if (!reading.study) throw Error{reading.diagnostics};
+  if (reading.study->variants.size() != 1) {
+    throw Error{ErrorKind::kInfeasible, "--run cannot teach teams of a study with varied keys again",
+                "leave --run out; 'kith teach --from' replays any team"};
+  }
+  const auto addresses = team_addresses(*reading.study);
+  Json teams = Json::object();
+  for (const auto& team : report.at("lessons").at("teams")) {
+    const auto number = team.at("team").get<std::size_t>();
+    const auto& address = addresses.at(number - 1);
+    if (address.strategy == kBaseline && address.composition.size() > 1) continue;  // a session per member, no room
+    const RoomSetup setup{.id = "team " + std::to_string(number),
+                          .strategy = address.strategy,
+                          .composition = address.composition,
+                          .simulated = std::vector<bool>(address.composition.size(), true),
+                          .replicate = address.replicate};
+    teams[std::to_string(number)] = to_json(setup);
+  }
+  return {{"inputs", make_session_study(reading).inputs}, {"teams", std::move(teams)}};
+}
 
 // Tells people who wait what is being done: every step once, from the third second on.
 class Steps {
@@ -36,6 +72,8 @@ class Steps {
 void declare(OptionList& list, ReportCommandOptions& options) {
   list.text("folder", options.folder, "DIR", "Run folder").required();
   list.text("-o,--out", options.out, "FILE", "Page to write (default: report.html in DIR); '-' is stdout");
+  list.flag("--run", options.runs,
+            "With the engine of lesson files (850 kB more): teams can be taught again in the page");
   list.json();
 }
 
@@ -43,12 +81,18 @@ int run(const ReportCommandOptions& options, Console& console) {
   Steps steps{console};
   ReportOptions report;
   report.on_step = [&](std::string_view step) { steps.show(step); };
-  const auto document = build_report(options.folder, report);
+  auto document = build_report(options.folder, report);
+  if (options.runs) {
+    require_engine();
+    auto json = Json::parse(document);
+    json["again"] = taught_again(options.folder, json);
+    document = json.dump(-1, ' ', true);
+  }
   if (console.json()) {
     console.print(document + "\n");
     return 0;
   }
-  const auto page = page_with(document, detail::kReportPage);
+  const auto page = page_with(document, options.runs ? page_with_engine(detail::kReportPage) : detail::kReportPage);
   if (!options.out.empty()) {
     write_page("report", page, options.out, console);
   } else {  // a link in the folder was not named by anybody
@@ -61,8 +105,9 @@ int run(const ReportCommandOptions& options, Console& console) {
 
 void add_report(Commands& commands) {
   commands.add<ReportCommandOptions>("report", "Write a run's figures, tests and methods as one web page",
-                                     {"kith report results/paper", "kith report results/paper -o paper.html"}, declare,
-                                     run);
+                                     {"kith report results/paper", "kith report results/paper -o paper.html",
+                                      "kith report results/quick --run -o quick.html"},
+                                     declare, run);
 }
 
 }  // namespace kith::cli

@@ -100,8 +100,10 @@ class Engine {
       }
     }
     auto restored = Json{{"events", std::exchange(happened_, Json::array())}, {"lessons", lessons}};
-    if (room_->seq() == 0) decide({"server", "join", {{"seat", 1}}, {}});
-    decide({"server", "present", {{"seat", 1}}, {}});
+    if (room_->is_person(1)) {
+      if (room_->seq() == 0) decide({"server", "join", {{"seat", 1}}, {}});
+      decide({"server", "present", {{"seat", 1}}, {}});
+    }
     auto reply = state();
     if (!lessons.empty()) reply["restored"] = std::move(restored);
     reply["warnings"] = texts_of(reading.diagnostics);
@@ -176,8 +178,9 @@ class Engine {
       for (const auto& event : due) happen(event);
     }
     const auto next = room_->next_due();
+    const bool is_watched = room_->is_person(1);
     Json reply{{"events", std::exchange(happened_, Json::array())},
-               {"view", room_->view({Viewer::Role::kParticipant, 1}, now_us_)},
+               {"view", is_watched ? room_->view({Viewer::Role::kParticipant, 1}, now_us_) : Json{}},
                {"due_us", next ? Json{*next} : Json{}},
                {"teaching", room_->teaching().has_value()},
                {"refusal", Json{}}};

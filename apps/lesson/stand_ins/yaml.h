@@ -1,8 +1,8 @@
 #pragma once
 
-// In place of LibYAML, which Debian has compiled for another machine: as much of it as libs/maps uses. It reads the flat
-// tables that map_server writes, a key and a value per line, of which one is a list in brackets; `kith lesson` has read
-// the file with LibYAML before, so what is not of this form is refused here.
+// In place of LibYAML, which Debian has compiled for another machine: as much of it as libs/maps uses. It reads the
+// flat tables that map_server writes, a key and a value per line, of which one is a list in brackets; `kith lesson` has
+// read the file with LibYAML before, so what is not of this form is refused here.
 
 #include <algorithm>
 #include <cstddef>
@@ -69,7 +69,8 @@ inline std::string_view plain_value(std::string_view text) {
   const auto begin = text.find_first_not_of(kSpace);
   if (begin == std::string_view::npos) return {};
   text = text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-  const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  const bool is_quoted =
+      text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 

@@ -1,6 +1,6 @@
 // What `kith lesson` puts into a lesson file.
 export interface LessonFile {
-  schema: 'kith.lesson/1';
+  schema: 'kith.lesson/1' | 'kith.report/1';
   kith: string;
   title: string;
   digest: string; // of the inputs
@@ -8,6 +8,7 @@ export interface LessonFile {
   setup: Record<string, unknown>; // of the room
   origins: string[]; // of pages around this one that are told how it goes
   package?: true; // made for a learning system
+  playground?: true; // the domain can be changed
 }
 
 export function readDocument(): LessonFile {

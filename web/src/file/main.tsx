@@ -1,5 +1,5 @@
 // A lesson in one file: the pages of live sessions, with the engine in the server's place.
-import { render, type JSX } from 'preact';
+import { render, type ComponentProps, type JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
 import { App } from '../live/app';
 import { Button } from '../live/parts/ui';
@@ -7,6 +7,7 @@ import { download } from '../shared/download';
 import { loadTexts, t } from '../shared/texts';
 import { installTheme } from '../shared/theme';
 import { useTransport } from '../shared/transport';
+import { Again } from './again';
 import { readDocument } from './document';
 import type { Door } from './doors/door';
 import { unpacked } from './doors/packed';
@@ -14,6 +15,7 @@ import { findDoor, Reporter, type DoorTrouble } from './doors/reporter';
 import { Engine } from './engine';
 import { LocalServer } from './local_server';
 import { emptyLog, eraseLog, recalledLog, type Log } from './log';
+import { Playground } from './playground';
 import sheet from './style.css?text';
 import { Researcher } from './teacher';
 
@@ -120,6 +122,11 @@ async function longestLog(door: Door | null): Promise<Log | null> {
 
 async function begin(): Promise<void> {
   if (!page) return;
+  if (file.playground) {
+    page.replaceChildren();
+    render(<Playground engine={Engine.start()} file={file} />, page);
+    return;
+  }
   let isShown = false;
   const { door, trouble } = await findDoor(file);
   learner = door?.learner ?? '';
@@ -167,4 +174,6 @@ function giveUp(error: unknown): void {
   else render(<Trouble text={t('file.broken')} />, page);
 }
 
-start();
+// A report that brings the engine along asks for one thing only.
+if (file.schema === 'kith.lesson/1') start();
+else Object.assign(window, { kithTeachAgain: (place: HTMLElement, props: ComponentProps<typeof Again>) => render(<Again {...props} />, place) });

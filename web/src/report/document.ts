@@ -1,5 +1,6 @@
 // The document that kith writes (schema kith.report/1), as far as the page uses it.
 import type { Vector } from '../shared/sphere';
+import type { TaughtAgain } from '../file/again';
 import type { Lessons } from './team/lessons';
 
 export type Cell = string | number | boolean | null;
@@ -134,6 +135,7 @@ export interface Report {
   };
   beliefs?: Beliefs;
   lessons?: Lessons;
+  again?: TaughtAgain; // with the engine of lesson files in the page
 }
 
 export const kSchema = 'kith.report/1';

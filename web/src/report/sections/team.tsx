@@ -1,10 +1,26 @@
 // From a number to a team: a dot of a figure, or the list, opens what that team was shown and how it answered.
 import { render } from 'preact';
+import { scriptIn } from '../../file/packed';
 import { announce, button, el } from '../../shared/dom';
 import { Legend } from '../../shared/board/legend';
 import type { Study } from '../study';
 import { TeamView, titleOf } from '../team/team_view';
 import type { Section } from './section';
+
+type TeachAgain = (place: HTMLElement, props: object) => void;
+
+// What teaches a team again is packed into the page, and unpacked when somebody asks for it.
+async function teachAgain(): Promise<TeachAgain> {
+  const known = window as { kithTeachAgain?: TeachAgain };
+  if (!known.kithTeachAgain) {
+    const script = el('script', { src: scriptIn('kith-page') });
+    await new Promise((resolve) => {
+      script.addEventListener('load', resolve);
+      document.head.append(script);
+    });
+  }
+  return known.kithTeachAgain ?? ((): void => undefined);
+}
 
 export const kOpenTeam = 'kith-open-team'; // an event of the document; its detail is the team's number
 
@@ -14,6 +30,8 @@ export function teamSection(study: Study): Section | null {
   const first = lessons?.teams[0];
   if (!lessons || !first) return null;
   const legend = new Legend(lessons.domain);
+  const { again } = study.report;
+  const againPlace = el('div');
   const place = el('div', { class: 'team' });
   const select = el(
     'select',
@@ -25,6 +43,14 @@ export function teamSection(study: Study): Section | null {
     if (!team) return;
     select.value = String(number);
     render(<TeamView lessons={lessons} legend={legend} team={team} words={study.words} />, place);
+    againPlace.replaceChildren();
+    if (!again?.teams[String(number)]) return;
+    const taught = el('div');
+    const begin = button('Teach this team again', () => {
+      begin.remove();
+      void teachAgain().then((teach) => teach(taught, { again, lessons, team: number }));
+    });
+    againPlace.replaceChildren(begin, taught);
   };
   const step = (by: number): void => {
     const at = teams.findIndex(({ team }) => team === Number(select.value)) + by;
@@ -56,6 +82,7 @@ export function teamSection(study: Study): Section | null {
           button('Next', () => step(1), { 'aria-label': 'Next team' }),
         ),
       ),
+      againPlace,
       place,
     ],
   };
