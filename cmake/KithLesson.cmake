@@ -32,6 +32,9 @@ if(KITH_BUILD_TESTS AND KITH_CHROMIUM)
     --kith $<TARGET_FILE:kith> --modules ${PROJECT_BINARY_DIR}/web --chromium ${KITH_CHROMIUM})
   add_test(NAME web.LessonDoors COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/tests/doors_test.mjs
     --kith $<TARGET_FILE:kith> --modules ${PROJECT_BINARY_DIR}/web --chromium ${KITH_CHROMIUM})
+  add_test(NAME web.LessonSessions COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/tests/sessions_test.mjs
+    --kith $<TARGET_FILE:kith> --engine ${engine})
+  set_tests_properties(web.LessonSessions PROPERTIES TIMEOUT 1200 LABELS web)
   set_tests_properties(web.LessonFile web.LessonDoors PROPERTIES ${browser_of_files} TIMEOUT 1200 LABELS web)
   find_program(KITH_FIREFOX NAMES firefox-esr firefox DOC "Second browser that tests lesson files")
   mark_as_advanced(KITH_FIREFOX)
