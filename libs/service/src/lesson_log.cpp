@@ -52,7 +52,10 @@ LessonLog parsed_log(std::string_view text, const std::string& name) {
     log.setup = room_setup(json.at("setup"));
     for (const auto& event : json.at("events")) log.events.push_back(room_event(event));
     log.study = json.at("study").get<std::string>();
-    for (const auto& lesson : json.at("lessons")) log.lessons[lesson.at("seq").get<std::uint64_t>()] = lesson;
+    for (const auto& lesson : json.at("lessons")) {
+      const bool is_new = log.lessons.try_emplace(lesson.at("seq").get<std::uint64_t>(), lesson).second;
+      if (!is_new) refuse_log(name, "the log has a lesson twice");
+    }
     log.seal = json.at("seal").get<std::string>();
     return log;
   } catch (const Json::parse_error& error) {
@@ -89,6 +92,7 @@ std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& sessio
   TeachingCache cache{session.study->atlas};
   std::vector<RoomEvent> events;
   std::uint64_t at = 0;
+  std::size_t num_lessons = 0;
   try {
     Room room{session.study, log.setup, cache};
     for (const auto& event : log.events) {
@@ -97,6 +101,7 @@ std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& sessio
       // Lessons are chosen anew, and must be the same ones.
       if (event.get<happening::LessonChosen>() != nullptr) {
         const auto lesson = same_lesson(log, event, room, cache, name);
+        ++num_lessons;
         events.push_back(room.taught(lesson, event.at_us));
         room.apply(events.back(), cache, &lesson);
       } else {
@@ -108,6 +113,7 @@ std::vector<RoomEvent> replayed(const LessonLog& log, const SessionStudy& sessio
     if (!error.diagnostics().empty() && error.diagnostics().front().id == "E1622") throw;
     refuse_change(name, "event " + std::to_string(at) + ": " + error.what());
   }
+  if (num_lessons != log.lessons.size()) refuse_change(name, "it has a lesson that was never chosen");
 
   return events;
 }

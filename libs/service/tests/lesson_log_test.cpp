@@ -138,6 +138,12 @@ TEST(LessonLog, ThatWasChangedIsRefused) {
   log["events"].erase(log["events"].size() - 1);
   EXPECT_EQ(id_of_refusal(scratch.path(), log.dump()), "E1622");
   log = Json::parse(text);
+  const auto lesson = log["lessons"].front();
+  log["lessons"].push_back(lesson);
+  EXPECT_EQ(id_of_refusal(scratch.path(), log.dump()), "E1621");
+  log["lessons"].back()["seq"] = 1;
+  EXPECT_EQ(id_of_refusal(scratch.path(), log.dump()), "E1622");
+  log = Json::parse(text);
   log["inputs"]["study.toml"] = log["inputs"]["study.toml"].get<std::string>() + "# more\n";
   EXPECT_EQ(id_of_refusal(scratch.path(), log.dump()), "E1622");
 }
