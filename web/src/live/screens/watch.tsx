@@ -200,5 +200,9 @@ function hint(wasSeen: boolean, path: Path, isDone: boolean): string {
   return t(isDone ? 'watch.done' : 'watch.over');
 }
 
-const leadKey = ({ board, runs }: Shown, wasSeen: boolean): TextKey =>
-  wasSeen && runs ? 'watch.think_runs' : `watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`;
+// Whoever was asked for a guess before is not asked again.
+function leadKey({ board, runs, world }: Shown, wasSeen: boolean): TextKey {
+  if (!wasSeen && world !== undefined) return 'watch.see';
+  if (wasSeen && runs) return 'watch.think_runs';
+  return `watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`;
+}

@@ -10,15 +10,19 @@ import { BoardPane } from './board_pane';
 import { labelOf } from './ledger';
 import type { Branch, World } from './world';
 
-// "1 of 3 tries", "2 of 5 tries"; per cent where no small number of tries says it.
-function shareText(probability: number, short = false): string {
+const isWhole = (x: number): boolean => Math.abs(x - Math.round(x)) < 1e-6 && Math.round(x) > 0;
+
+// "1 of 3 tries", "2 of 5 tries"; per cent where no small number of tries says it and what stands beside it.
+function shareText(probability: number, beside: number[], short = false): string {
   for (const of of [2, 3, 4, 5, 6, 8, 10]) {
     const n = Math.round(probability * of);
-    if (Math.abs(probability * of - n) < 1e-6 && n > 0) return t(short ? 'fan.of' : 'fan.tries', { n, of });
+    if ([probability, ...beside].every((share) => isWhole(share * of))) return t(short ? 'fan.of' : 'fan.tries', { n, of });
   }
   const percent = Math.round(100 * probability);
   return short ? `${percent} %` : t('fan.percent', { percent });
 }
+
+const sharesOf = (branches: Branch[]): number[] => branches.map(({ probability }) => probability);
 
 // Where a path is at one of its frames, as a state of the table; -1: it does not say.
 export function stateAt(world: World, start: number, frames: Frame[], step: number): number {
@@ -51,7 +55,7 @@ export function Fan({ board, legend, world, state, own, other, isYours, costs }:
   const armsOf = (branches: Branch[], kind: Arm['kind']): Arm[] =>
     branches.flatMap(({ next, probability }) => {
       const to = world.frame(next).robot;
-      return here && to ? [{ from: here, to, kind, text: shareText(probability, true) }] : [];
+      return here && to ? [{ from: here, to, kind, text: shareText(probability, sharesOf(branches), true) }] : [];
     });
   const saying = (action: number, i: number): string =>
     t(`fan.${i === 0 ? 'robot' : isYours ? 'yours' : 'expected'}${world.actions[action]?.shift ? '' : '_does'}`, { action: actionLabel(world.actions[action]?.name ?? '') });
@@ -74,7 +78,7 @@ export function Fan({ board, legend, world, state, own, other, isYours, costs }:
             )}
             <figcaption>
               <strong class={i === 0 ? 'own' : 'other'}>{saying(action, i)}</strong>{' '}
-              {listed(branches.map(({ next, probability }) => `${whereTo(world, state, next)} ${shareText(probability)}`))}.
+              {listed(branches.map(({ next, probability }) => `${whereTo(world, state, next)} ${shareText(probability, sharesOf(branches))}`))}.
             </figcaption>
           </figure>
         ))}
@@ -111,7 +115,7 @@ function Saved({ board, world, state, own, other, costs }: SavedProps): JSX.Elem
     const [mine, theirs] = [chanceOf(own, k), chanceOf(other, k)];
     const counted = board.domain.counted?.[k];
     if (!counted || mine + 1e-9 >= theirs) return [];
-    const said = { what: labelOf(counted), mine: shareText(mine), theirs: shareText(theirs) };
+    const said = { what: labelOf(counted), mine: shareText(mine, [theirs]), theirs: shareText(theirs, mine > 0 ? [mine] : []) };
     return mine === 0 ? [`${t('fan.never', said)}${isPushing ? ` ${t('fan.wall')}` : ''}`] : [t('fan.less', said)];
   });
   return (
