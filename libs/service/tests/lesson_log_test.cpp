@@ -121,6 +121,7 @@ TEST(LessonLog, ThatWentAnotherWayIsRefused) {
   auto other = log_of(session);
   auto& events = other.at("events");
   events.erase(events.begin() + 3, events.end());
+  other["lessons"] = Json::array();
   events.back()["at_us"] = events.back()["at_us"].get<std::int64_t>() + 1;
   std::string seal;
   for (const auto& event : events) seal = sealed(seal, room_event(event));
