@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/core/hash.hpp"
 #include "kith/core/memory.hpp"
 #include "kith/mdp/coverage_set.hpp"
 #include "robot_plan.hpp"
@@ -69,15 +70,8 @@ class AtlasBuilder {
   }
   [[nodiscard]] std::uint32_t picture(MdpIndex m, StateIndex s);
 
-  struct IntsHash {
-    std::size_t operator()(const std::vector<std::int64_t>& ints) const noexcept {
-      std::uint64_t hash = 0xCBF29CE484222325ull;
-      for (const auto i : ints) hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x100000001B3ull;
-      return static_cast<std::size_t>(hash ^ (hash >> 31));
-    }
-  };
   template <typename Value>
-  using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
+  using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, HashOfList>;
 
   Atlas& atlas_;
   std::shared_ptr<BehaviourTables> tables_;  // the atlas's; nothing where behaviours are planned

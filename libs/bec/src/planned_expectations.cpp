@@ -6,6 +6,7 @@
 #include "kith/bec/comparison.hpp"
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/assert.hpp"
+#include "kith/core/hash.hpp"
 #include "kith/core/memory.hpp"
 #include "kith/mdp/behaviour.hpp"
 
@@ -41,13 +42,10 @@ class PlannedExpectations : public Expectations {
     std::vector<LossIndex> losses;  // per state on candidates' paths
     std::vector<SetIndex> sets;     // per such state: what going on from there conveys; empty where not asked for yet
   };
-  struct WordsHash {
-    std::size_t operator()(const std::vector<std::uint32_t>& words) const noexcept;
-  };
   struct World {
     std::vector<Kept> behaviours;
-    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, WordsHash> by_key;  // of the partition
-    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, WordsHash> by_losses;
+    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, HashOfList> by_key;  // of the partition
+    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, HashOfList> by_losses;
   };
   struct Cell {
     Direction weights;
@@ -86,9 +84,9 @@ class PlannedExpectations : public Expectations {
   std::size_t behaviour_bytes_ = 0;  // of worlds_ and sets
   std::size_t max_behaviour_bytes_ = 0;
   std::vector<const std::vector<std::uint32_t>*> sets_;  // constraints, ascending
-  std::unordered_map<std::vector<std::uint32_t>, SetIndex, WordsHash> set_index_;
-  std::unordered_map<std::uint64_t, SetIndex> with_;                            // set and constraint
-  std::unordered_map<std::vector<std::uint32_t>, SetIndex, WordsHash> unions_;  // several sets
+  std::unordered_map<std::vector<std::uint32_t>, SetIndex, HashOfList> set_index_;
+  std::unordered_map<std::uint64_t, SetIndex> with_;                             // set and constraint
+  std::unordered_map<std::vector<std::uint32_t>, SetIndex, HashOfList> unions_;  // several sets
   std::vector<double> robot_weights_;
   std::vector<std::uint64_t> rows_;
   std::vector<ConstraintIndex> numbering_;
@@ -96,21 +94,9 @@ class PlannedExpectations : public Expectations {
 };
 
 std::size_t PlannedExpectations::DirectionHash::operator()(const Direction& weights) const noexcept {
-  std::uint64_t hash = 0x9E3779B97F4A7C15ull;
-  for (const double w : weights) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(w)) * 0xBF58476D1CE4E5B9ull;
-    hash ^= hash >> 29;
-  }
-  return static_cast<std::size_t>(hash);
-}
-
-std::size_t PlannedExpectations::WordsHash::operator()(const std::vector<std::uint32_t>& words) const noexcept {
-  std::uint64_t hash = 0x9E3779B97F4A7C15ull;
-  for (const std::uint32_t word : words) {
-    hash = (hash ^ word) * 0xBF58476D1CE4E5B9ull;
-    hash ^= hash >> 29;
-  }
-  return static_cast<std::size_t>(hash);
+  ListHash hash;
+  for (const double w : weights) hash.add(std::bit_cast<std::uint64_t>(w));
+  return hash.value();
 }
 
 PlannedExpectations::PlannedExpectations(const Atlas& atlas, ConstraintTable& constraints, std::size_t max_cells,

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "kith/core/assert.hpp"
+#include "kith/core/hash.hpp"
 #include "kith/mdp/coverage_set.hpp"
 
 namespace kith {
@@ -150,19 +151,11 @@ class PolicyCellBuilder {
     return place->second;
   }
 
-  struct ChoicesHash {
-    std::size_t operator()(const std::vector<PolicyCells::Choice>& choices) const noexcept {
-      std::uint64_t hash = 0xCBF29CE484222325;  // FNV-1a
-      for (const auto c : choices) hash = (hash ^ c) * 0x100000001B3;
-      return static_cast<std::size_t>(hash);
-    }
-  };
-
   std::span<const Hull> hulls_;
   PolicyCells& cells_;
   std::vector<HalfSpace> region_planes_;
   std::vector<PolicyCells::Choice> decided_;
-  std::unordered_map<std::vector<PolicyCells::Choice>, std::uint32_t, ChoicesHash> leaves_;
+  std::unordered_map<std::vector<PolicyCells::Choice>, std::uint32_t, HashOfList> leaves_;
 };
 
 PolicyCells::PolicyCells(std::span<const Hull> hulls) { PolicyCellBuilder{hulls, *this}.build(); }

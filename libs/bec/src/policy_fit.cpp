@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kith/bec/comparison.hpp"
+#include "kith/core/hash.hpp"
 #include "robot_plan.hpp"
 
 namespace kith::detail {
@@ -110,10 +111,10 @@ Look PolicyFit::looked_at(Weights weights) {
     look.plans.push_back(*std::move(plan));
   }
   double share = 0.0;
-  std::uint64_t hash = 0xCBF29CE484222325ull;
+  ListHash hash;
   for (std::size_t m = 0; m < domain_.num_mdps(); ++m) {
     for (std::size_t s = 0; s < likeliest_[m].size(); ++s) {
-      hash = (hash ^ look.plans[m].choice[s]) * 0x100000001B3ull;
+      hash.add(look.plans[m].choice[s]);
       if (!is_seen(m, s)) continue;
       const auto part = explained_at(look, m, s, w);
       share += part.share;
@@ -122,7 +123,7 @@ Look PolicyFit::looked_at(Weights weights) {
   }
   look.share = share / static_cast<double>(num_seen_);
   look.loss /= static_cast<double>(num_seen_);
-  behaviours_.insert(hash);
+  behaviours_.insert(hash.value());
   return look;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "checks.hpp"
+#include "kith/core/hash.hpp"
 #include "kith/mdp/policy_partition.hpp"
 #include "normal_set.hpp"
 #include "path_values.hpp"
@@ -120,16 +121,6 @@ class PolicyPartition::Body {
   }
 
  private:
-  struct IntsHash {
-    std::size_t operator()(const std::vector<std::int64_t>& ints) const noexcept {
-      std::uint64_t hash = 0xCBF29CE484222325ull;
-      for (const auto i : ints) {
-        hash = (hash ^ static_cast<std::uint64_t>(i)) * 0xFF51AFD7ED558CCDull;
-        hash ^= hash >> 32;
-      }
-      return static_cast<std::size_t>(hash);
-    }
-  };
   // What is known of a component for one list of differences between the counts of its exits.
   struct Case {
     std::vector<double> sums;  // per part: the sum of the counts of all states, row-major, shape [parts, d]
@@ -140,7 +131,7 @@ class PolicyPartition::Body {
     std::vector<std::uint32_t> kept;   // those of its states whose counts matter outside
     bool is_alone = false;             // a single state
     std::uint32_t num_parts = 0;
-    std::unordered_map<std::vector<std::int64_t>, Case, IntsHash> cases;
+    std::unordered_map<std::vector<std::int64_t>, Case, HashOfList> cases;
   };
 
   // Of two behaviours the better one is better or equal everywhere, so the best in sum is the only candidate.
