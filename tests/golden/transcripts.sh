@@ -11,10 +11,10 @@ names_of() { "$kith" explain "$1" | grep -o '^[a-z][a-z0-9-]*$'; }
 for strategy in $(names_of strategies); do command[$strategy]="--strategy $strategy"; done
 # With "bayesian", the first kind, as the teacher assumes: that is what the strategies have.
 for kind in $(names_of learners | tail -n +2); do
-  command[learner-$kind]="--strategy joint --set learner.N.kind=\"$kind\" --set learner.P.kind=\"$kind\""
+  command[learner-$kind]="--strategy joint --set stop.max_periods=6 --set learner.N.kind=\"$kind\" --set learner.P.kind=\"$kind\""
 done
 for model in $(names_of discussions | tail -n +2); do
-  command[discussion-$model]="--strategy joint --set group.discussion.model=\"$model\""
+  command[discussion-$model]="--strategy joint --set stop.max_periods=4 --set group.discussion.model=\"$model\""
 done
 if (( ${#command[@]} < 2 )); then
   echo "kith explain strategies does not list strategies"
