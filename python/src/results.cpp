@@ -15,6 +15,7 @@
 #include "kith/fit/answer_regions.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
+#include "kith/fit/recovery.hpp"
 #include "kith/present/audit_report.hpp"
 #include "kith/report/report.hpp"
 #include "kith/runs/journal.hpp"
@@ -134,7 +135,7 @@ std::string fit(const std::vector<std::string>& logs, const std::string& method,
     options.parallel = parallel;
     const auto found = fit_learners(imported.logs, options);
     if (!found.complete) throw Stopped{};
-    return cli::to_json(found, imported.logs.notes).dump();
+    return cli::to_json(found, recovery(imported.logs, found), imported.logs.notes).dump();
   });
 }
 
