@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +11,7 @@
 #include "item_delivery.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/present/curriculum_json.hpp"
+#include "undrawn_cliff.hpp"
 
 namespace kith {
 namespace {
@@ -90,19 +89,8 @@ TEST(BoardJson, GivesAFrameForEveryStateOfAPath) {
   EXPECT_EQ(step_json(atlas.domain(), world, path, 2), parsed(R"({"frame": 2, "cell": [2, 2]})"));
 }
 
-// A model without a picture.
-Domain undrawn_cliff() {
-  const auto folder = std::filesystem::path{KITH_SOURCE_DIR} / "docs/examples";
-  std::ifstream file{folder / "cliff.toml"};
-  std::string text;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("[model.drawing]") && !line.starts_with("columns")) text += line + '\n';
-  }
-  return parse_domain(text, "cliff.toml", {}, {.folder = folder}).domain.value();
-}
-
 TEST(BoardJson, LeavesOutMapsWhereThereAreNone) {
-  const auto domain = undrawn_cliff();
+  const auto domain = testing::undrawn_cliff();
   const auto described = board_domain_json(domain);
   for (const auto* key : {"legend", "width", "height"}) EXPECT_FALSE(described.contains(key)) << key;
   const MdpIndex world{0};

@@ -10,6 +10,7 @@
 #include "domain_texts.hpp"
 #include "item_delivery.hpp"
 #include "kith/present/inspect_svg.hpp"
+#include "undrawn_cliff.hpp"
 
 namespace kith {
 namespace {
@@ -151,7 +152,8 @@ TEST(InspectSvg, DrawsMapAndPolicyOnlyWhereThereIsAMap) {
   for (const auto& file : domain_pictures(item_delivery().domain(), MdpIndex{63})) expect_well_formed(file.text);
   EXPECT_EQ(domain_pictures(item_delivery().domain(), MdpIndex{63}).size(), 2u);
   const auto listed = load_domain(std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml");
-  EXPECT_TRUE(domain_pictures(listed, MdpIndex{0}).empty());
+  EXPECT_EQ(domain_pictures(listed, MdpIndex{0}).size(), 2u);  // its states are drawn row by row
+  EXPECT_TRUE(domain_pictures(testing::undrawn_cliff(), MdpIndex{0}).empty());
   const auto icy = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
   EXPECT_EQ(domain_pictures(icy, MdpIndex{0}).size(), 2u);  // its policy, too, although the ice is slippery
   const auto pictures = atlas_pictures(item_delivery(), MdpIndex{63});

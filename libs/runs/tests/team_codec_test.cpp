@@ -51,13 +51,18 @@ TEST(TeamCodec, GivesEveryRecordBack) {
   }
 }
 
-// Layout 8 had no discussions. The one before sessions could end as skipped had a flag in the place of the status.
+// Layout 9 had no kinds of learners in estimates, and 8 no discussions. The one before sessions could end as skipped
+// had a flag in the place of the status.
 TEST(TeamCodec, ReadsRecordsOfEarlierLayouts) {
   for (auto team : teams(RecordLevel::kPeriod)) {
+    team.estimates.clear();
     for (const auto status : {SessionStatus::kComplete, SessionStatus::kMaxPeriods}) {
       team.status = status;
       std::string content{unseal_record(team.address.team, encode_team(team, kKey), kKey).value()};
-      content.pop_back();  // the number of discussions, which came later
+      content.front() = 9;
+      EXPECT_TRUE(decode_team(team.address, seal_record(team.address.team, content, kKey), kKey));
+
+      content.pop_back();  // the number of discussions
       content.front() = 8;
       EXPECT_TRUE(decode_team(team.address, seal_record(team.address.team, content, kKey), kKey));
 
