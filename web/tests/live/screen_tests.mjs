@@ -24,6 +24,12 @@ export const repeatedIds = () => {
   return ids.filter((id, i) => ids.indexOf(id) !== i);
 };
 
+// Textures that a board is filled with and the page lacks, so that nothing is to be seen there.
+export const missingTextures = () => {
+  const names = [...document.querySelectorAll('[fill^="url(#"]')].map((shape) => shape.getAttribute('fill').slice(5, -1));
+  return [...new Set(names)].filter((name) => !document.getElementById(name));
+};
+
 // Buttons, links and fields that are smaller than a finger.
 const smallTargets = () =>
   [...document.querySelectorAll('#page button, #page a, #page select, #page summary, #page textarea, #page input')]
@@ -74,6 +80,7 @@ async function examine(setting, person, name, look) {
   assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
   assert.deepEqual(await page.evaluate(smallTargets), [], name);
   assert.deepEqual(await page.evaluate(repeatedIds), [], name);
+  assert.deepEqual(await page.evaluate(missingTextures), [], name);
   assert.deepEqual(await person.violations(setting.axe, look.rules), [], name);
 }
 

@@ -19,8 +19,8 @@ interface Props {
 }
 
 export function Shell({ connection, snapshot, view, children }: Props): JSX.Element {
-  const { check, watch, predict, feedback } = view;
-  const board = (check ?? watch ?? predict ?? view.screening ?? feedback?.tests[0] ?? (view.debrief && remembered().first))?.board;
+  const { check, watch, predict, discuss, feedback } = view;
+  const board = (check ?? watch ?? predict ?? discuss ?? view.screening ?? feedback?.tests[0] ?? (view.debrief && remembered().first))?.board;
   return (
     <>
       {board && <Patterns surfaces={board.domain.surfaces ?? []} />}
