@@ -54,11 +54,11 @@ function complain(list, what) {
   if (list.length > 0) throw new Error(`${what}: ${list.join('; ')}`);
 }
 
-// The demonstration of `kith serve`, on a free port unless one is given: {port, join, seats, ..., stop}.
-export async function startKith(program, folder, port = 0) {
-  const server = spawn(program, ['serve', '--demo', '--no-browser', '--json', '-q', '--port', String(port), '-o', folder], {
-    stdio: ['ignore', 'pipe', 'inherit'],
-  });
+// The demonstration of `kith serve`, on a free port unless one is given, with keys of its study set otherwise:
+// {port, join, seats, ..., stop}.
+export async function startKith(program, folder, port = 0, keys = []) {
+  const words = ['serve', '--demo', '--no-browser', '--json', '-q', '--port', String(port), '-o', folder];
+  const server = spawn(program, [...words, ...keys.flatMap((key) => ['--set', key])], { stdio: ['ignore', 'pipe', 'inherit'] });
   let text = '';
   const document = await new Promise((resolve, reject) => {
     server.on('exit', (status) => reject(new Error(`kith serve ended with status ${status}`)));

@@ -61,16 +61,17 @@ export async function reach(people, stages, isRight = () => true) {
   return seen;
 }
 
-// Three people who join the demonstration with its link.
-async function withDemonstration(setting, body) {
+// Three people who join the demonstration with its link; `keys` of its study, and how each person's browser looks.
+export async function withDemonstration(setting, body, { keys = [], looks = [] } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'kith-live-'));
-  const start = (port) => startKith(setting.kith, join(folder, 'session'), port);
-  const running = { server: await start(0), start };
+  const session = join(folder, 'session');
+  const start = (port) => startKith(setting.kith, session, port, keys);
+  const running = { server: await start(0), start, folder, session };
   const people = [];
   try {
     assert.equal(running.server.seats.length, 3);
     for (let i = 0; i < 3; i += 1) {
-      const person = await openPerson(setting.browser, running.server.join, {});
+      const person = await openPerson(setting.browser, running.server.join, looks[i]);
       people.push(person);
       await person.open();
       await person.button('Join').click();
