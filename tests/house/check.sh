@@ -38,6 +38,16 @@ check_pragma() {  # every header begins with #pragma once
     print FILENAME ": the first line is not " q "#pragma once" q }' 2>&1 | none
 }
 
+# Lessons in files run the lower layers with a library that has no std::ranges: each algorithm is in portability.hpp.
+check_ranges() {
+  local own=apps/lesson/src/portability.hpp layer
+  sed -n 's/^set(layers \(.*\))$/\1/p' apps/lesson/CMakeLists.txt | tr ' ' '\n' | while IFS= read -r layer; do
+    files "libs/$layer/include/*" "libs/$layer/src/*" | search -noE 'std::ranges::[a-z_]+\('
+  done | while IFS= read -r use; do
+    grep -qF " ${use##*::}" "$own" || echo "${use%(}: not in $own"
+  done | none
+}
+
 # A layer needs only layers that come before it in libs/CMakeLists.txt, and the map of the project has them all in order.
 check_layers() {
   local seen=' ' layer need

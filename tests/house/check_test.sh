@@ -21,7 +21,10 @@ tidy_tree() {
   printf 'kith_module(report)\n' >libs/report/CMakeLists.txt
   printf '## Layers\n\n```text\nlow high  what is below\nlive table report  people\n```\n\n## Read first\n' >docs/architecture.md
   printf '#pragma once\nstruct Left {\n  constexpr Kind kKind{"left", "leave"};\n};\n' >libs/live/include/kith/live/room_event.hpp
-  printf '// Tells kinds apart.\n' >libs/live/src/room.cpp
+  printf '// Tells kinds apart.\nconst bool is_there = std::ranges::any_of(people, here);\n' >libs/live/src/room.cpp
+  mkdir -p apps/lesson/src
+  printf 'set(layers low live)\n' >apps/lesson/CMakeLists.txt
+  printf '#pragma once\nconstexpr bool any_of(int range);\n' >apps/lesson/src/portability.hpp
   printf '#pragma once\ninline constexpr char kTeam[] = "team";\n' >libs/table/include/kith/table/column_names.hpp
   printf '// Reads tables.\n' >libs/report/src/run_data.cpp
   printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
@@ -48,11 +51,12 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma layers newline links map quotes citations errors types rows columns; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma ranges layers newline links map quotes citations errors types rows columns; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
 breaks pragma libs/low/include/y.hpp '// first\n#pragma once\n'
+breaks ranges libs/live/src/room.cpp 'std::ranges::shuffle(people);\n'
 breaks layers libs/low/CMakeLists.txt 'kith_module(low DEPENDS kith::high)\n'
 breaks layers libs/low/CMakeLists.txt 'kith_module(low PRIVATE_DEPENDS kith::high)\n'
 breaks newline README.md 'no end'

@@ -68,7 +68,7 @@ bool is_explained(const Domain& domain, MdpIndex world, const PolicyRun& run) {
   if (!domain.inferred()) return true;
   const auto& strange = domain.inferred()->not_explained;
   return std::ranges::none_of(run.path.states, [&](StateIndex s) {
-    return std::ranges::binary_search(strange, StartId{world, s});
+    return std::binary_search(strange.begin(), strange.end(), StartId{world, s});
   });
 }
 
