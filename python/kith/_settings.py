@@ -57,11 +57,13 @@ def toml_text(table: Mapping[str, Any], path: str = "") -> str:
 
 
 def overrides(settings: Mapping[str, Any], path: str = "") -> Iterator[str]:
-    """"KEY=VALUE" for every setting: {"teacher": {"particles": 500}} is teacher.particles=500."""
+    """"KEY=VALUE" for every setting: {"teacher": {"particles": 500}} is teacher.particles=500.
+
+    A table with dotted names of its own, such as design.vary, is one value."""
     for name, value in settings.items():
         if not isinstance(name, str):
             raise TypeError(f"settings are named by text, not {name!r}")
-        if isinstance(value, Mapping) and value:
+        if isinstance(value, Mapping) and value and not any("." in str(key) for key in value):
             yield from overrides(value, f"{path}{name}.")
         else:
             yield f"{path}{name}={toml_value(value)}"
