@@ -16,7 +16,7 @@
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/fit/recovery.hpp"
-#include "kith/present/audit_report.hpp"
+#include "kith/present/audit_people.hpp"
 #include "kith/report/report.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/study_run.hpp"
@@ -139,27 +139,6 @@ std::string fit(const std::vector<std::string>& logs, const std::string& method,
   });
 }
 
-// The people of one team, judged.
-std::vector<AuditedPerson> judged(const Atlas& atlas, const Study& study, const TeamRecord& record,
-                                  const AuditOptions& options) {
-  TeachingCache cache{atlas};
-  const auto& address = record.address;
-  const auto periods = observed_people(atlas, record);
-  auto audits = Auditor{cache, options}.audit_group(
-      periods, RandomStream{1}.split("audit").split(address.team).split(std::string_view{}));
-  std::vector<AuditedPerson> people;
-  for (std::size_t i = 0; i < audits.size(); ++i) {
-    AuditedPerson person;
-    person.team = address.team;
-    person.group = describe_team(study, address);
-    person.member = i + 1;
-    person.type = address.composition[i];
-    person.audit = std::move(audits[i]);
-    people.push_back(std::move(person));
-  }
-  return people;
-}
-
 std::string audit(const std::string& folder, std::size_t team, const std::string& room, double forgetting,
                   std::size_t threads, const py::object& on_progress) {
   if (!(forgetting >= 0.0) || forgetting > 1e6) throw py::value_error{"forgetting must be 0 or more, in radians"};
@@ -184,13 +163,8 @@ std::string audit(const std::string& folder, std::size_t team, const std::string
     auto reading = read_run_folder(folder, own.kinds());
     if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
     const auto& study = *reading.study;
-    const auto& teaching = study.variants.front().teaching;
     require_teaching_memory(*reading.domain);
     const Atlas atlas{*reading.domain};
-    AuditOptions options;
-    options.bank.filter = teaching.filter;
-    options.bank.likelihood = teaching.likelihood;
-    options.forgetting = forgetting;
     std::vector<TeamRecord> records;
     const auto journal = Journal::read(std::filesystem::path{folder} / kJournalFile);
     teams_of(study, journal)([&](const TeamRecord& record) {
@@ -200,10 +174,13 @@ std::string audit(const std::string& folder, std::size_t team, const std::string
       throw Error{ErrorKind::kInfeasible, team == 0 ? "no team of " + folder + " has been taught yet"
                                                     : "team " + std::to_string(team) + " has not been taught"};
     std::vector<std::vector<AuditedPerson>> people(records.size());
-    const bool all = for_each_index(records.size(), {.threads = threads, .on_progress = tell},
-                                    [&](std::size_t i) { people[i] = judged(atlas, study, records[i], options); });
+    const bool all = for_each_index(records.size(), {.threads = threads, .on_progress = tell}, [&](std::size_t i) {
+      TeachingCache cache{atlas};
+      people[i] = audit_team(cache, study, records[i], forgetting);
+    });
     if (!all) throw Stopped{};
-    AuditReport result{.source = folder, .people = {}, .options = options};
+    AuditReport result{
+        .source = folder, .people = {}, .options = audit_options(study.variants.front().teaching, forgetting)};
     for (auto& person : people) result.people.insert(result.people.end(), person.begin(), person.end());
     return audit_json(atlas, result, cli::program_name()).dump();
   });

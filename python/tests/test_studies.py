@@ -47,8 +47,8 @@ class Runs(unittest.TestCase):
             self.assertFalse(column.flags.writeable)
         self.assertEqual(teams["completed"].dtype, bool)
         self.assertEqual(teams["periods"].dtype, np.int64)
-        self.assertEqual(list(tables), [f[:-4] for f in sorted(os.listdir(self.run_.folder / "tables")) if f.endswith(".csv")]
-                         if sorted(tables) == list(tables) else list(tables))
+        files = [f[:-4] for f in os.listdir(self.run_.folder / "tables") if f.endswith(".csv")]
+        self.assertCountEqual(list(tables), files)
         self.assertIn("knowledge", tables.codebook("teams").index)
         with self.assertRaises(KeyError):
             tables["nothing"]
@@ -77,6 +77,16 @@ class Runs(unittest.TestCase):
         self.assertEqual(told.periods, int(self.run_.tables["teams"]["periods"][0]))
         people = self.run_.audit(1, progress=False)["people"]
         self.assertEqual(len(people), len(self.run_.tables["teams"]["composition"][0]))
+
+    @unittest.skipUnless(os.path.exists(PROGRAM), "the program is not built")
+    def test_a_run_is_audited_as_the_program_does(self):
+        folder = self.folder / "kinds"
+        kith.study("quick", folder, progress=False, replicates=1, **{
+            "teacher.hypotheses": "kinds", "stop.max_periods": 3, "design.strategies": ["joint"],
+            "design.vary": {"teacher.process_noise": [0.1, 0.5]}})
+        printed = subprocess.run([PROGRAM, "audit", folder, "--json"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(kith.audit(folder, progress=False), json.loads(printed))
+        self.assertIn("kinds", json.loads(printed)["people"][0])
 
     @unittest.skipUnless(os.path.exists(PROGRAM), "the program is not built")
     def test_a_live_session_is_audited_as_the_program_does(self):

@@ -16,14 +16,13 @@
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
-#include "kith/present/audit_report.hpp"
+#include "kith/present/audit_people.hpp"
 #include "kith/present/wrapped.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "kith/store/event_file.hpp"
 #include "kith/store/session_audit.hpp"
-#include "kith/study/observed_team.hpp"
 #include "kith/teaching/kind_of_person.hpp"
 #include "page.hpp"
 #include "progress.hpp"
@@ -48,50 +47,7 @@ Error refusal(ErrorKind kind, const std::string& id, const std::string& message,
       kind, message, {{.id = id, .message = message, .hint = hint, .infeasible = kind == ErrorKind::kInfeasible}}};
 }
 
-// A person whose answers are to be judged.
-struct Observed {
-  AuditedPerson person;  // without an audit
-  std::vector<ObservedPeriod> periods;
-};
-
-AuditOptions audit_options(const AuditCommandOptions& options, const StudySpec& spec) {
-  AuditOptions how;
-  how.bank.filter = spec.teaching.filter;
-  how.bank.likelihood = spec.teaching.likelihood;
-  how.forgetting = options.forgetting;
-  return how;
-}
-
-// The people of one group.
-void judge(TeachingCache& cache, const AuditOptions& how, const TeachingOptions& teaching,
-           std::vector<Observed>& people) {
-  if (people.empty()) return;
-  const auto& first = people.front().person;
-  const auto random = RandomStream{1}.split("audit").split(first.team).split(first.room);
-  for (std::size_t i = 0; teaching.hypotheses_about == HypothesesAbout::kKinds && i < people.size(); ++i) {
-    people[i].person.kinds = kinds_after(cache, teaching, people[i].periods, random.split("kinds").split(i));
-  }
-  std::vector<std::vector<ObservedPeriod>> periods;
-  for (auto& person : people) periods.push_back(std::move(person.periods));
-  auto audits = Auditor{cache, how}.audit_group(periods, random);
-  for (std::size_t i = 0; i < people.size(); ++i) people[i].person.audit = std::move(audits[i]);
-}
-
 // --- a run ---------------------------------------------------------------------------------------------------------
-
-std::vector<Observed> people_of(const Atlas& atlas, const Study& study, const TeamRecord& record) {
-  std::vector<Observed> people;
-  const auto& address = record.address;
-  for (auto& periods : observed_people(atlas, record)) {
-    AuditedPerson person;
-    person.team = address.team;
-    person.group = describe_team(study, address);
-    person.member = people.size() + 1;
-    person.type = address.composition[people.size()];
-    people.push_back({std::move(person), std::move(periods)});
-  }
-  return people;
-}
 
 // Threads take an atlas's cache each, and give it back.
 class Caches {
@@ -132,7 +88,7 @@ class RunAudit {
   [[nodiscard]] const Atlas& atlas() const { return *atlas_; }
 
   AuditReport report() {
-    std::vector<std::vector<Observed>> judged(records_.size());
+    std::vector<std::vector<AuditedPerson>> judged(records_.size());
     Caches caches{*atlas_};
     watch_signals();
     Progress progress{options_.progress, console_};
@@ -143,25 +99,21 @@ class RunAudit {
     const bool all =
         for_each_index(records_.size(), {.threads = options_.threads, .on_progress = on_progress}, [&](std::size_t i) {
           auto cache = caches.take();
-          judged[i] = people_of(*atlas_, study_, records_[i]);
-          const auto& spec = spec_of(records_[i]);
-          judge(*cache, audit_options(options_, spec), spec.teaching, judged[i]);
+          judged[i] = audit_team(*cache, study_, records_[i], options_.forgetting);
           caches.give_back(std::move(cache));
         });
     progress.finish();
     if (!all) throw Error{ErrorKind::kPartial, "interrupted; nothing was written"};
-    AuditReport report{.source = options_.folder, .people = {}, .options = audit_options(options_, study_.variants[0])};
+    AuditReport report{.source = options_.folder,
+                       .people = {},
+                       .options = audit_options(study_.variants[0].teaching, options_.forgetting)};
     for (auto& team : judged) {
-      for (auto& member : team) report.people.push_back(std::move(member.person));
+      for (auto& member : team) report.people.push_back(std::move(member));
     }
     return report;
   }
 
  private:
-  [[nodiscard]] const StudySpec& spec_of(const TeamRecord& record) const {
-    return study_.variants[record.address.variant];
-  }
-
   void read(const Journal& journal) {
     if (study_.variants[0].record == RecordLevel::kTeam) {
       throw refusal(ErrorKind::kInfeasible, "E1113",

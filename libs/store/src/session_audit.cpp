@@ -5,9 +5,9 @@
 
 #include "kith/core/error.hpp"
 #include "kith/live/taught_people.hpp"
+#include "kith/present/audit_people.hpp"
 #include "kith/store/session_review.hpp"
 #include "kith/store/session_study.hpp"
-#include "kith/teaching/kind_of_person.hpp"
 
 namespace kith {
 namespace {
@@ -40,29 +40,20 @@ TaughtRoom taught_in(EventFile& file, const StoredRoom& stored, const std::share
   return result;
 }
 
-std::vector<AuditedPerson> judged(const TaughtRoom& room, TeachingCache& cache, const AuditOptions& options,
-                                  const TeachingOptions& teaching) {
-  const auto& [setup, taught] = room;
-  const auto random = RandomStream{1}.split("audit").split(std::uint64_t{0}).split(setup.id);
-  std::vector<std::vector<ObservedPeriod>> periods;
-  for (const auto& one : taught) periods.push_back(one.periods);
-  auto audits = Auditor{cache, options}.audit_group(periods, random);
-  std::vector<AuditedPerson> people;
-  for (std::size_t i = 0; i < taught.size(); ++i) {
+std::vector<ObservedPerson> observed(TaughtRoom room) {
+  const auto& setup = room.setup;
+  std::vector<ObservedPerson> group;
+  for (auto& taught : room.people) {
     AuditedPerson person;
     person.room = setup.id;
     person.group = "room " + setup.id + " (" + setup.strategy + ", " + setup.composition + ")";
-    person.member = taught[i].member + 1;
-    person.seat = taught[i].seat;
-    person.type = setup.composition.at(taught[i].member);
-    person.simulated = !taught[i].is_person;
-    person.audit = std::move(audits[i]);
-    if (teaching.hypotheses_about == HypothesesAbout::kKinds) {
-      person.kinds = kinds_after(cache, teaching, taught[i].periods, random.split("kinds").split(i));
-    }
-    people.push_back(std::move(person));
+    person.member = taught.member + 1;
+    person.seat = taught.seat;
+    person.type = setup.composition.at(taught.member);
+    person.simulated = !taught.is_person;
+    group.push_back({std::move(person), std::move(taught.periods)});
   }
-  return people;
+  return group;
 }
 
 }  // namespace
@@ -72,17 +63,16 @@ SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
   const auto& teaching = result.study->spec.teaching;
   auto& report = result.report;
   report.source = options.source;
-  report.options.bank.filter = teaching.filter;
-  report.options.bank.likelihood = teaching.likelihood;
-  report.options.forgetting = options.forgetting;
+  report.options = audit_options(teaching, options.forgetting);
 
   TeachingCache cache{result.study->atlas};
   const auto rooms = options.room.empty() ? file.rooms() : std::vector{find_room(file, options.room)};
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     if (options.on_progress) options.on_progress(i, rooms.size());
-    const auto room = taught_in(file, rooms[i], result.study, cache);
-    if (room.people.empty()) continue;
-    for (auto& person : judged(room, cache, report.options, teaching)) report.people.push_back(std::move(person));
+    auto group = observed(taught_in(file, rooms[i], result.study, cache));
+    for (auto& person : audit_people(cache, teaching, options.forgetting, std::move(group))) {
+      report.people.push_back(std::move(person));
+    }
   }
   if (report.people.empty()) {
     throw refusal(ErrorKind::kInfeasible, "E1115", "no room of " + options.source + " has had a lesson yet",
