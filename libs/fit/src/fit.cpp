@@ -257,10 +257,11 @@ class Fitting {
                                 " on average, at most " + figure(largest, 2) + " (standard error over " +
                                 std::to_string(options_.replicates) + " replicates)");
     constexpr double kTolerable = 0.3;  // docs/fitting.md has figures below and above it
-    if (mean <= kTolerable) return;
+    report_.is_too_noisy = mean > kTolerable;
+    if (!report_.is_too_noisy) return;
     report_.sentences.push_back(
-        "that is too noisy: do not trust these estimates, and their intervals are too narrow; give more "
-        "--replicates, or run studies with more particles");
+        "that is too noisy: do not trust these estimates, and their intervals are too narrow; take more "
+        "replicates, or run studies with more particles");
   }
 
   void compare_models() {

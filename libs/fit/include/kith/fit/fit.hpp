@@ -71,7 +71,9 @@ struct FitReport {
   std::vector<PersonReport> people;
   std::vector<CrossValidation> cross_validation;  ///< "full" first; empty if there are too few people.
   std::vector<std::string> sentences;             ///< What the comparison of models says.
-  std::string why_estimates_differ;               ///< Medians of the posterior and maximum of the likelihood.
+  /// Whether the likelihoods have too much Monte-Carlo error to trust estimates and intervals; `sentences` say so.
+  bool is_too_noisy = false;
+  std::string why_estimates_differ;  ///< Medians of the posterior and maximum of the likelihood.
 };
 
 /// Fits people and populations by likelihood: see docs/fitting.md.
