@@ -43,8 +43,8 @@ case ${1:-} in
     targets+=(kith_python)
     ;;
   --packages)
-    packages+=("${packages_for_python[@]}" "${packages_for_site[@]}")
-    module=(-DKITH_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 -DKITH_SITE=ON)
+    packages+=("${packages_for_python[@]}" "${packages_for_site[@]}" "${packages_to_pack[@]}")
+    module=(-DKITH_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 -DKITH_SITE=ON -DKITH_MPI=ON)
     targets+=(kith_python kith_site)
     ;;
 esac

@@ -65,6 +65,7 @@ if(TARGET kith_mpi)  # it alone needs MPI, which brings 30 packages
   list(APPEND CPACK_COMPONENTS_ALL mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_NAME kith-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "kith (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
   set(CPACK_COMPONENT_MPI_DESCRIPTION "Studies of kith on several machines by MPI")
 endif()
 if(KITH_PYTHON)

@@ -15,6 +15,7 @@ holds() {  # PACKAGE PATTERN...
 }
 holds kith ' ./usr/bin/kith$' 'man1/kith\.1' 'bash-completion/completions/kith$' 'share/kith/domains/item_delivery\.toml$'
 holds libkith-dev 'cmake/kith/kithConfig\.cmake$' 'include/kith/bec/atlas\.hpp$' 'libkith_bec\.a$'
+[[ -e $build/lib/kith_mpi.so ]] && holds kith-mpi 'kith/kith_mpi\.so$'
 grep -q '^KITH_PYTHON:BOOL=ON' "$build/CMakeCache.txt" && holds python3-kith 'kith/__init__\.py$' 'kith/_core\..*\.so$' 'kith/py\.typed$'
 grep -q '^KITH_SITE:BOOL=ON' "$build/CMakeCache.txt" && holds kith 'html/docs/README\.html$'
 if dpkg-deb -f "$out"/kith_*.deb Depends | grep -E 'mpi|python'; then fail "the package of the program needs this"; fi
