@@ -18,6 +18,7 @@ html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
 html_copy_source = False
+html_show_search_summary = False  # browsers do not let a file read others
 html_show_copyright = False
 
 

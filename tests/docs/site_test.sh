@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# site_test.sh SOURCE SPHINX: the documentation becomes a site without warnings, which loads nothing from elsewhere, has
-# every page of docs/ in its navigation, and finds words.
+# site_test.sh SOURCE SPHINX [NODE MODULES CHROMIUM]: the documentation becomes a site without warnings, which loads
+# nothing from elsewhere, has every page of docs/ in its navigation, and in a browser what narrow.mjs says.
 set -euo pipefail
 source=$1 sphinx=$2
+shift 2
 site=$(mktemp -d)
 trap 'rm -rf "$site"' EXIT
 fail() { echo "$*" >&2; exit 1; }
@@ -14,4 +15,4 @@ for page in "$source"/docs/*.md "$source"/docs/adr/*.md; do
   [[ $name == README ]] && continue
   grep -q "class=\"toctree-l1\".*$name\.html" "$site/html/docs/README.html" || fail "the navigation has no $name"
 done
-grep -q '"half' "$site/html/searchindex.js" || fail "the index of the search has no words of the pages"
+if (($#)); then "$1" "$source/tests/docs/narrow.mjs" "$site/html" "${@:2}"; fi
