@@ -57,8 +57,8 @@ budget[fuzz]=$((minutes + 5))
 
 packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
 if [[ $mode == nightly ]]; then
-  packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}" "${packages_for_python[@]}" "${packages_for_site[@]}"
-    "${packages_to_pack[@]}")
+  packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}" "${packages_for_python[@]}"
+    "${packages_for_site[@]}" "${packages_to_pack[@]}")
 fi
 ensure_packages "${packages[@]}"
 

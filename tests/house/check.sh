@@ -90,6 +90,10 @@ check_links() {  # relative links in documents lead somewhere
   done | none
 }
 
+check_marks() {  # a line that begins with a comment is no part of a paragraph, so the mark of a figure or a claim does not
+  files '*.md' | search -nE '^ *<!--(f | holds:)' | none
+}
+
 check_map() {  # sources that the map of the project names exist; without a folder, somewhere
   files docs/architecture.md | while IFS= read -r page; do
     grep -oE '[A-Za-z0-9_./-]+\.(cpp|hpp|tsx?)\b' "$page" | grep -v '^_' | sort -u | while IFS= read -r source; do

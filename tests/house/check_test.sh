@@ -51,11 +51,12 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma ranges layers newline links map quotes citations errors types rows columns; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma ranges layers newline links marks map quotes citations errors types rows columns; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
 breaks pragma libs/low/include/y.hpp '// first\n#pragma once\n'
+breaks marks README.md 'It rose by\n<!--f rise-->2 %<!--/f-->.\n'
 breaks ranges libs/live/src/room.cpp 'std::ranges::shuffle(people);\n'
 breaks layers libs/low/CMakeLists.txt 'kith_module(low DEPENDS kith::high)\n'
 breaks layers libs/low/CMakeLists.txt 'kith_module(low PRIVATE_DEPENDS kith::high)\n'
