@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Optional
+from typing import NamedTuple, Optional
 
 Start = tuple[int, int]
 """Where a demonstration or a test begins: number of the world, number of the state."""
@@ -13,8 +12,7 @@ Counts = tuple[float, ...]
 """How often each feature counts along a path, shape [d]: whole numbers, or expectations."""
 
 
-@dataclass(frozen=True)
-class Demonstration:
+class Demonstration(NamedTuple):
     """A path of the robot that is shown."""
 
     start: Start
@@ -26,8 +24,7 @@ class Demonstration:
     """Area of what is left before / after, >= 1."""
 
 
-@dataclass(frozen=True)
-class Test:
+class Test(NamedTuple):
     """A start for which people are asked what the robot would do."""
 
     start: Start
@@ -39,8 +36,7 @@ class Test:
     """False: nothing tests that itself, so this tests what is nearest."""
 
 
-@dataclass(frozen=True)
-class Lesson:
+class Lesson(NamedTuple):
     """The demonstrations of one period, with the tests that follow."""
 
     period: int
@@ -61,8 +57,7 @@ class Lesson:
     """Logarithm of the area of what is left before / after."""
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(NamedTuple):
     """What an answer showed."""
 
     correct: bool
@@ -73,8 +68,7 @@ class Verdict:
     """What the answer says about what the person believes."""
 
 
-@dataclass(frozen=True)
-class Feedback:
+class Feedback(NamedTuple):
     """What the team hears after its answers."""
 
     verdicts: list[list[Verdict]]
@@ -89,8 +83,7 @@ class Feedback:
     """Seats that are done with the component before the others."""
 
 
-@dataclass(frozen=True)
-class Period:
+class Period(NamedTuple):
     """A completed period."""
 
     lesson: Lesson
@@ -99,8 +92,7 @@ class Period:
     feedback: Feedback
 
 
-@dataclass(frozen=True)
-class Path:
+class Path(NamedTuple):
     """What somebody does from a start."""
 
     world: int
@@ -113,8 +105,7 @@ class Path:
     """Of a path that never ends, the position in `states` at which it begins again."""
 
 
-@dataclass(frozen=True)
-class Component:
+class Component(NamedTuple):
     """A part of what there is to understand: a trade-off between features."""
 
     name: str
@@ -125,11 +116,10 @@ class Component:
     """Worlds in which it is taught."""
 
 
-@dataclass(frozen=True)
-class World:
+class World(NamedTuple):
     """One of the worlds in which the robot works."""
 
-    index: int
+    index: int  # type: ignore[assignment]  # of a tuple it would be a method
     name: str
     state_names: list[str]
     """Of all states; those in which an episode has ended come last."""

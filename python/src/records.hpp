@@ -8,7 +8,7 @@
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/past_periods.hpp"
 
-/// What happens in a session as the dataclasses of kith/_records.py: values that stay what they are.
+/// What happens in a session as the tuples of kith/_records.py: values that stay what they are.
 namespace kith::python {
 
 [[nodiscard]] py::object to_python(const Atlas& atlas, const Lesson& lesson);
