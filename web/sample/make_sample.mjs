@@ -189,6 +189,16 @@ const calibration = each([1, 2, 3], [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0
   return [within, p, round(share), round(Math.max(0, share - 0.1)), round(Math.min(1, share + 0.1)), 80];
 });
 const triple = (name) => [name, `${name}_low`, `${name}_high`];
+// What people of other minds are left with: the best of a row, and one that is hardly worse.
+const minds = ['bayesian', 'noisy-rational', 'imitating', 'decaying'];
+const matrixNames = [...names, 'plan', 'adaptive', 'set-cover', 'random'];
+const matrix = each(minds, matrixNames).map(([mind, strategy]) => {
+  const k = matrixNames.indexOf(strategy);
+  const best = minds.indexOf(mind) + 3;
+  const standing = k === best ? 'best' : k === best + 1 ? 'not clearly worse' : '';
+  const regret = 0.03 * 4 ** minds.indexOf(mind) * (1 + 0.1 * Math.abs(k - best));
+  return [mind, strategy, 60, ...around(regret, 0.05 * regret), standing, ...around(0.9 - 0.02 * Math.abs(k - best), 0.02), standing];
+});
 const timings = [
   ['planning', 0.041],
   ['teaching', 0.196],
@@ -430,6 +440,24 @@ const report = {
     parameters: table(['group', 'key', 'value', 'meaning'], parameters),
   },
   ...sampleTexts(),
+  matrices: [
+    {
+      factors: ['learner.N.kind', 'strategy'],
+      outcomes: [
+        { column: 'exam_regret', name: 'Regret in the exam', digits: 3, less_is_better: true },
+        { column: 'exam_share_right', name: 'Share right in the exam', digits: 2, less_is_better: false },
+      ],
+      table: table(
+        [
+          'learner.N.kind',
+          'strategy',
+          'teams',
+          ...['exam_regret', 'exam_share_right'].flatMap((q) => ['mean', 'low', 'high', 'standing'].map((s) => `${q}_${s}`)),
+        ],
+        matrix,
+      ),
+    },
+  ],
   beliefs: sampleBeliefs(random),
 };
 

@@ -269,6 +269,41 @@ describe('a report', () => {
     }
   });
 
+  // The colour of a cell is mixed with the ground; the contrast is WCAG's.
+  it('values of a heat map can be read on every colour, and each row has one frame', async () => {
+    for (const dark of [false, true]) {
+      await withReport({ width: 1280, dark }, async ({ page }) => {
+        if (!(await page.$('#figure-matrix-1'))) return;
+        const { cells, text, ground, frames, values: shown, best } = await page.evaluate(() => {
+          const figure = document.querySelector('#figure-matrix-1');
+          const styles = [...figure.querySelectorAll('.mark-rect path')].map((path) => getComputedStyle(path));
+          figure.querySelector('details').open = true;
+          return {
+            cells: styles.filter(({ fill }) => fill !== 'none').map(({ fill, fillOpacity }) => ({ fill, opacity: Number(fillOpacity) })),
+            frames: styles.filter(({ fill, stroke }) => fill === 'none' && stroke !== 'none').length,
+            text: getComputedStyle(figure.querySelector('.mark-text.role-mark text')).fill,
+            ground: getComputedStyle(document.body).backgroundColor,
+            values: figure.querySelectorAll('svg .mark-text text').length,
+            best: figure.querySelector('.chart').getAttribute('aria-label'),
+          };
+        });
+        const channels = (color) => color.match(/[\d.]+/g).slice(0, 3).map((part) => Number(part) / 255);
+        const light = (rgb) =>
+          rgb.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)).reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+        assert.ok(cells.length >= 18 && new Set(cells.map(({ opacity }) => opacity)).size > 4, `${cells.length} cells`);
+        for (const { fill, opacity } of cells) {
+          const under = channels(ground);
+          const mixed = channels(fill).map((c, i) => opacity * c + (1 - opacity) * under[i]);
+          const [high, low] = [light(channels(text)), light(mixed)].sort((a, b) => b - a);
+          assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${text} on ${fill} at ${opacity}`);
+        }
+        assert.equal(frames, 8, 'the best of four rows, for two outcomes');
+        assert.ok(shown > cells.length, 'a value in every cell');
+        assert.match(best, /best in each row: bayesian: common 0[.]030; /);
+      });
+    }
+  });
+
   it('a dot of a figure, and the list, open a team with its boards and answers', async () => {
     await withReport({ width: 1280, dark: false }, async ({ page }) => {
       const title = () => page.textContent('#team h3');

@@ -13,6 +13,7 @@
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "lessons.hpp"
+#include "matrices.hpp"
 #include "methods.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
@@ -31,7 +32,7 @@ struct Statistic {
   std::string_view suffix, text;
 };
 constexpr std::array kMoments{Statistic{"_mean", ", mean"}, Statistic{"_sd", ", sd"}, Statistic{"_low", ", 95 % low"},
-                              Statistic{"_high", ", 95 % high"}};
+                              Statistic{"_high", ", 95 % high"}, Statistic{"_standing", ", within its row"}};
 constexpr std::array kInterval{Statistic{"_low", ", 95 % low"}, Statistic{"_high", ", 95 % high"}};
 constexpr std::array kForecast{Statistic{"_mean", ", mean"}, Statistic{"_low", ", 80 % low"},
                                Statistic{"_high", ", 80 % high"}};
@@ -376,6 +377,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
                 {"methods", methods_of(run, design, data, analysis)},
                 {"reproduce", reproduction_of(run)}};
 
+  if (auto found = matrices(run, data); !found.empty()) document["matrices"] = std::move(found);
   if (beliefs) document["beliefs"] = *std::move(beliefs);
   if (lessons) document["lessons"] = *std::move(lessons);
   return document;

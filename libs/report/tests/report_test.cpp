@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
+#include "kith/stats/moments.hpp"
+#include "kith/stats/tests.hpp"
 #include "runs.hpp"
 
 namespace kith {
@@ -356,8 +359,51 @@ TEST(Report, TellsSettingsOfVariedKeysApart) {
             Json::parse(R"(["common [stop.max_periods=1]", "common [stop.max_periods=40]"])"));
   EXPECT_EQ(document.at("labels").at("strategies").at("common [stop.max_periods=1]"), "Common, stop.max_periods=1");
   EXPECT_EQ(document.at("overview").at("factors"), Json::parse(R"(["stop.max_periods"])"));
+  EXPECT_FALSE(document.contains("matrices"));  // one strategy
   // One team a cell has no spread.
   EXPECT_TRUE(document.at("tables").at("cells").at("rows").at(0).at(5).is_null());
+}
+
+// Against what the tables of cells and teams say of the same.
+TEST(Report, SetsStrategiesAgainstAVariedKey) {
+  const ScratchFolder scratch;
+  run_tiny_study(scratch / "run", {"replicates=4", "record.exam=\"end\"",
+                                   "design.strategies=[\"common\", \"joint\", \"individual-low\"]",
+                                   "design.vary={\"learner.N.kind\"=[\"bayesian\", \"imitating\", \"slipping\"]}"});
+  const auto document = Json::parse(build_report(scratch / "run"));
+  ASSERT_THAT(document.at("matrices"), SizeIs(1));
+  const auto& matrix = document.at("matrices").at(0);
+  EXPECT_EQ(matrix.at("factors"), Json::parse(R"(["learner.N.kind", "strategy"])"));
+  EXPECT_EQ(matrix.at("outcomes").at(0).at("column"), "exam_regret");
+  const auto& heads = matrix.at("table").at("columns");
+  const auto place = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(heads.begin(), heads.end(), name) - heads.begin());
+  };
+  const auto regrets = [&](const std::string& kind, const std::string& strategy) {
+    std::vector<double> values;
+    for (const auto& row : rows_of(document, "teams", {strategy + " [learner.N.kind=" + kind + "]"}))
+      values.push_back(row.at(8).get<double>());
+    return values;
+  };
+
+  const auto& rows = matrix.at("table").at("rows");
+  ASSERT_THAT(rows, SizeIs(9));
+  for (const auto& row : rows) {
+    const auto kind = row.at(0).get<std::string>();
+    const auto values = regrets(kind, row.at(1).get<std::string>());
+    ASSERT_THAT(values, SizeIs(4));
+    EXPECT_EQ(row.at(2), 4);
+    EXPECT_NEAR(row.at(place("exam_regret_mean")).get<double>(), mean(values), kTiny);
+    const auto best = std::min_element(rows.begin(), rows.end(), [&](const Json& a, const Json& b) {
+      const auto cost = [&](const Json& r) { return r.at(0) == kind ? mean(regrets(kind, r.at(1))) : 1e9; };
+      return cost(a) < cost(b);
+    });
+    const auto least = regrets(kind, best->at(1));
+    const auto difference = paired_t_test(values, least);
+    const bool is_clear = !difference || difference->low > 0.0;
+    const bool is_best = mean(values) <= mean(least) + kTiny;
+    EXPECT_EQ(row.at(place("exam_regret_standing")), is_best ? "best" : (is_clear ? "" : "not clearly worse")) << row;
+  }
 }
 
 TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {

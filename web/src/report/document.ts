@@ -63,6 +63,13 @@ export interface Finding {
   tables?: ResultTable[];
 }
 
+// Two things that a study varies against each other: a row of the table per combination.
+export interface Matrix {
+  factors: [string, string];
+  outcomes: { column: string; name: string; digits: number; less_is_better: boolean }[];
+  table: Table;
+}
+
 export interface Reference {
   key: string;
   text: string;
@@ -124,6 +131,7 @@ export interface Report {
   };
   notes?: string[];
   tables: Record<string, Table | undefined>;
+  matrices?: Matrix[];
   findings?: Finding[];
   methods?: { paragraph: string; references?: Reference[] };
   reproduce?: {

@@ -8,6 +8,7 @@ import { examCurveFigures } from '../figures/exam';
 import { forecastFigures } from '../figures/forecasts';
 import { frontFigures } from '../figures/front';
 import { interactionFigures } from '../figures/interaction';
+import { matrixFigures } from '../figures/matrix';
 import { examOutcomeFigures, outcomeFigures } from '../figures/outcomes';
 import { timeFigures } from '../figures/time';
 import { figureView } from '../figure_view';
@@ -16,6 +17,7 @@ import type { Study } from '../study';
 import type { Section } from './section';
 
 const kSections: { id: string; title: string; figures(study: Study): Figure[] }[] = [
+  { id: 'matrices', title: 'Settings against each other', figures: matrixFigures },
   {
     id: 'outcomes',
     title: 'Periods and knowledge',

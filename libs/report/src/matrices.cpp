@@ -1,0 +1,200 @@
+#include "matrices.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "kith/stats/moments.hpp"
+#include "kith/stats/tests.hpp"
+#include "kith/table/column_names.hpp"
+#include "team_tables.hpp"
+
+namespace kith::detail {
+namespace {
+
+using Values = std::vector<double>;
+
+constexpr std::size_t kFewestLevels = 3;
+
+// What the study varies: its levels in the order of the tables, and which of them each team has.
+struct Varied {
+  std::string name;
+  std::vector<std::string> levels{};
+  std::vector<std::size_t> level_of_team{};
+  bool has_own_people = true;  // of each level
+  bool is_varied_key = false;
+};
+
+struct Shown {
+  std::string column;
+  std::string name;
+  double TeamValues::*value;
+  int digits;
+  bool less_is_better;
+};
+
+template <typename LevelOf>
+Varied factor_of(const RunFiles& run, Varied factor, LevelOf level_of) {
+  for (const auto& address : run.teams.addresses) {
+    const std::string level = level_of(address);
+    const auto found = std::find(factor.levels.begin(), factor.levels.end(), level);
+    factor.level_of_team.push_back(static_cast<std::size_t>(found - factor.levels.begin()));
+    if (found == factor.levels.end()) factor.levels.push_back(level);
+  }
+  return factor;
+}
+
+// Who is taught comes before how: the first of two factors has the rows.
+std::vector<Varied> factors_of(const RunFiles& run) {
+  std::vector<Varied> factors{
+      factor_of(run, {.name = columns::kComposition}, [](auto& team) { return team.composition; })};
+  for (std::size_t k = 0; k < run.spec().factors.size(); ++k) {
+    factors.push_back(factor_of(run, {.name = run.spec().factors[k].key, .is_varied_key = true},
+                                [&](auto& team) { return run.study.variants[team.variant].factors[k].value; }));
+  }
+  const bool own_people = run.spec().pairing != Pairing::kReplicate;
+  factors.push_back(factor_of(run, {.name = columns::kStrategy, .has_own_people = own_people},
+                              [](auto& team) { return team.strategy; }));
+  return factors;
+}
+
+std::vector<Shown> outcomes_of(const RunData& data) {
+  std::vector<Shown> all;
+  if (data.has_exam) {
+    all = {{columns::kExamRegret, "Regret in the exam", &TeamValues::exam_regret, 3, true},
+           {columns::kExamShareRight, "Share right in the exam", &TeamValues::exam_share_right, 2, false}};
+  } else {
+    all = {{columns::kKnowledge, "Knowledge at the end", &TeamValues::knowledge, 2, false},
+           {columns::kPeriods, "Periods", &TeamValues::periods, 1, true}};
+  }
+  // A fixed number of periods, for instance, tells nothing.
+  std::erase_if(all, [&](const Shown& outcome) {
+    return std::all_of(data.teams.begin(), data.teams.end(),
+                       [&](auto& team) { return team.*outcome.value == data.teams.front().*outcome.value; });
+  });
+  return all;
+}
+
+// The teams with one level of each of two factors, by who is in them and everything else that the study varies.
+using People = std::tuple<std::size_t, std::string, std::size_t>;
+using Teams = std::map<People, std::size_t>;
+
+class Matrix {
+ public:
+  Matrix(const RunFiles& run, const RunData& data, const Varied& rows, const Varied& columns)
+      : data_{data}, rows_{rows}, columns_{columns}, cells_(rows.levels.size() * columns.levels.size()) {
+    for (std::size_t i = 0; i < data.teams.size(); ++i) {
+      const auto& address = run.teams.addresses[i];
+      cells_[rows.level_of_team[i] * columns.levels.size() + columns.level_of_team[i]].emplace(
+          People{address.variant, address.composition, address.replicate}, i);
+    }
+  }
+
+  [[nodiscard]] Json table(const std::vector<Shown>& outcomes) const {
+    std::vector<std::string> heads{rows_.name, columns_.name, "teams"};
+    for (const auto& outcome : outcomes) {
+      for (const auto* statistic : {"_mean", "_low", "_high", "_standing"}) heads.push_back(outcome.column + statistic);
+    }
+    JsonTable table{heads};
+    for (std::size_t row = 0; row < rows_.levels.size(); ++row) {
+      std::vector<std::vector<std::string>> standings;
+      for (const auto& outcome : outcomes) standings.push_back(standings_in(row, outcome));
+      for (std::size_t column = 0; column < columns_.levels.size(); ++column) {
+        const auto& teams = at(row, column);
+        if (teams.empty()) continue;  // an incomplete run
+        auto cells = Json::array({rows_.levels[row], columns_.levels[column], teams.size()});
+        for (std::size_t k = 0; k < outcomes.size(); ++k) {
+          add_interval(cells, values_of(teams, outcomes[k]));
+          cells.push_back(standings[k][column]);
+        }
+        table.add(std::move(cells));
+      }
+    }
+    return std::move(table).take();
+  }
+
+ private:
+  [[nodiscard]] const Teams& at(std::size_t row, std::size_t column) const {
+    return cells_[row * columns_.levels.size() + column];
+  }
+  [[nodiscard]] Values values_of(const Teams& teams, const Shown& outcome) const {
+    Values values;
+    for (const auto& [people, team] : teams) values.push_back(data_.teams[team].*outcome.value);
+    return values;
+  }
+
+  [[nodiscard]] std::vector<std::string> standings_in(std::size_t row, const Shown& outcome) const {
+    constexpr double kSlack = 1e-9;  // of sums in another order
+    std::vector<std::string> standings(columns_.levels.size());
+    std::vector<std::size_t> present;
+    std::vector<double> costs(columns_.levels.size());
+    for (std::size_t c = 0; c < costs.size(); ++c) {
+      if (at(row, c).empty()) continue;
+      present.push_back(c);
+      costs[c] = (outcome.less_is_better ? 1.0 : -1.0) * mean(values_of(at(row, c), outcome));
+    }
+    if (present.empty()) return standings;
+    const auto best =
+        *std::min_element(present.begin(), present.end(), [&](auto a, auto b) { return costs[a] < costs[b]; });
+    for (const auto c : present) {
+      if (costs[c] <= costs[best] + kSlack) {
+        standings[c] = "best";
+      } else if (includes_none(at(row, c), at(row, best), outcome)) {
+        standings[c] = "not clearly worse";
+      }
+    }
+    return standings;
+  }
+
+  // Whether the interval of the difference includes that there is none.
+  [[nodiscard]] bool includes_none(const Teams& teams, const Teams& best, const Shown& outcome) const {
+    const auto difference = columns_.has_own_people ? welch_t_test(values_of(teams, outcome), values_of(best, outcome))
+                                                    : difference_of_pairs(teams, best, outcome);
+    return difference && difference->low <= 0.0 && difference->high >= 0.0;
+  }
+  [[nodiscard]] Estimable<MeanDifference> difference_of_pairs(const Teams& teams, const Teams& best,
+                                                              const Shown& outcome) const {
+    Values values, others;
+    for (const auto& [people, team] : teams) {
+      const auto other = best.find(people);
+      if (other == best.end()) continue;
+      values.push_back(data_.teams[team].*outcome.value);
+      others.push_back(data_.teams[other->second].*outcome.value);
+    }
+    return paired_t_test(values, others);
+  }
+
+  const RunData& data_;
+  const Varied& rows_;
+  const Varied& columns_;
+  std::vector<Teams> cells_;  // shape [rows, columns], row-major
+};
+
+}  // namespace
+
+Json matrices(const RunFiles& run, const RunData& data) {
+  Json all = Json::array();
+  const auto outcomes = outcomes_of(data);
+  if (outcomes.empty()) return all;
+  Json described = Json::array();
+  for (const auto& outcome : outcomes) {
+    described.push_back({{"column", outcome.column},
+                         {"name", outcome.name},
+                         {"digits", outcome.digits},
+                         {"less_is_better", outcome.less_is_better}});
+  }
+
+  const auto factors = factors_of(run);
+  for (auto rows = factors.begin(); rows != factors.end(); ++rows) {
+    for (auto columns = rows + 1; columns != factors.end(); ++columns) {
+      if (!rows->is_varied_key && !columns->is_varied_key) continue;  // other figures are of these
+      if (std::min(rows->levels.size(), columns->levels.size()) < kFewestLevels) continue;
+      all.push_back({{"factors", {rows->name, columns->name}},
+                     {"outcomes", described},
+                     {"table", Matrix{run, data, *rows, *columns}.table(outcomes)}});
+    }
+  }
+  return all;
+}
+
+}  // namespace kith::detail
