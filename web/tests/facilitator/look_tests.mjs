@@ -186,6 +186,42 @@ export function lookTests({ withPage, violations, shoot }) {
     });
   });
 
+  it('says what kind of learner everybody seems to be, where the study asks for it', async () => {
+    const kinds = [
+      ['imitating', { bayesian: 0.04, imitating: 0.951, slipping: 0.009, decaying: 0.002 }],
+      ['cannot tell yet', { bayesian: 0.4, imitating: 0.25, slipping: 0.15, decaying: 0.2 }],
+    ];
+    const ask = (detail) => ({
+      ...detail,
+      members: detail.members.map((member, i) => ({ ...member, kind: kinds[i % 2][0], kinds: kinds[i % 2][1] })),
+    });
+    for (const [title, people] of [['Room A1', 3], ['Room A2', 12]]) {
+      for (const dark of [false, true]) {
+        await withPage({ calm: true, dark }, async (page, mock) => {
+          await openRoom(page, title);
+          const heads = () => page.$$eval('.group thead th', (all) => all.map((head) => head.textContent));
+          assert.ok(!(await heads()).includes('Kind'), 'a column of a study that does not ask');
+          mock.change = ask;
+          mock.showAll();
+          await page.waitForSelector('.group .kind');
+          assert.ok((await heads()).includes('Kind'));
+          const shown = await page.$$eval('.group tbody .kind', (cells) => cells.map((cell) => cell.textContent));
+          assert.equal(shown.length, people);
+          assert.deepEqual([...new Set(shown.filter((text) => text !== ''))], ['imitating', 'cannot tell yet']);
+          await page.hover('.group .kind >> nth=0');
+          assert.equal(await page.textContent('#tip'), 'imitating 95 %, bayesian 4 %, slipping 1 %');
+          await page.hover('.group .kind >> nth=1');
+          assert.match(await page.textContent('#tip'), /^bayesian 40 %, imitating 25 %, decaying 20 %/);
+          const group = await page.locator('.group').boundingBox();
+          const last = await page.locator('.group tbody tr >> nth=1 >> .answer-cell').last().boundingBox();
+          assert.ok(last.x + last.width <= group.x + group.width + 1, 'the latest answers are out of sight');
+          assert.deepEqual(await violations(page), []);
+          await shoot(page, `kinds-${people}-${dark ? 'dark' : 'light'}`);
+        });
+      }
+    }
+  });
+
   it('keeps what the reader is doing when a new view arrives', async () => {
     await withPage({ calm: true }, async (page, mock) => {
       await openRoom(page, 'Room A1');

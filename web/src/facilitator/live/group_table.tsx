@@ -46,7 +46,7 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const box = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => {
     if (box.current && box.current.clientWidth > kWide) box.current.scrollLeft = box.current.scrollWidth;
-  }, [columns.length]);
+  }, [columns.length, hasKinds]);
   const periods = [...new Set(columns.map(({ period }) => period))];
   return (
     <div class="group" ref={box} role="region" aria-label="Group" tabIndex={0}>
@@ -159,7 +159,7 @@ function Kind({ belief, isOut }: { belief: MemberBelief | undefined; isOut: bool
     .filter(({ percent }) => percent > 0)
     .sort((a, b) => b.percent - a.percent);
   return (
-    <td class="thinks" data-tip={all.map(({ kind, percent }) => `${kind} ${percent} %`).join(', ')}>
+    <td class="thinks kind" data-tip={all.map(({ kind, percent }) => `${kind} ${percent} %`).join(', ')}>
       {belief.kind}
     </td>
   );
