@@ -38,7 +38,7 @@ std::unique_ptr<Learner> somebody(TeachingCache& cache, const LearnerModel& mode
 // Two people of these models taught for some periods.
 Session taught(TeachingCache& cache, const TeachingOptions& options, const char* strategy,
                const std::vector<const LearnerModel*>& models, const std::vector<std::uint64_t>& seeds,
-               std::size_t periods) {
+               std::size_t periods, const DiscussionChoice& discussion = {}) {
   std::vector<RandomStream> persons;
   Learners people;
   for (std::size_t i = 0; i < models.size(); ++i) {
@@ -46,7 +46,9 @@ Session taught(TeachingCache& cache, const TeachingOptions& options, const char*
     people.push_back(somebody(cache, *models[i], persons.back().split("learner")));
   }
   Session session{cache, options, strategy_named(strategy), persons, RandomStream{1}};
-  for (std::size_t t = 0; t < periods && session.propose(cache); ++t) run_period(session, cache, people);
+  for (std::size_t t = 0; t < periods && session.propose(cache); ++t) {
+    run_period(session, cache, people, {.discussion = discussion, .talk = persons});
+  }
   return session;
 }
 
@@ -96,11 +98,14 @@ TEST(PresumedKinds, AreToldByTheirAnswers) {
 TEST(PresumedKinds, AreTheSameFromOutside) {
   TeachingCache cache{item_delivery()};
   const auto options = asking();
-  const auto session = taught(cache, options, "joint", {&imitating_model(), &bayesian_model()}, {3, 4}, 4);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto seen =
-        kinds_after(cache, options, observed_periods(session.history(), i), RandomStream{3 + i}.split("bank"));
-    EXPECT_EQ(seen, session.bank()->member(i).kinds());
+  for (const auto& talk : discussion_models()) {  // which takes time, too
+    const auto session = taught(cache, options, "joint", {&imitating_model(), &decaying_model()}, {3, 4}, 4,
+                                {&talk, ParameterValues{talk.parameters}});
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto seen =
+          kinds_after(cache, options, observed_periods(session.history(), i), RandomStream{3 + i}.split("bank"));
+      EXPECT_EQ(seen, session.bank()->member(i).kinds()) << talk.name;
+    }
   }
 }
 

@@ -21,17 +21,20 @@ class Observations {
       : atlas_{atlas}, people_(record.address.composition.size()) {
     for (const auto& shown : record.demonstration_records) add(shown);
     for (const auto& response : record.responses) add(response);
+    for (auto& periods : people_) {
+      for (auto& [number, period] : periods) {
+        period.all_correct = std::all_of(period.verdicts.begin(), period.verdicts.end(),
+                                         [](const Verdict& verdict) { return verdict.correct; });
+      }
+    }
+    for (const auto& discussed : record.discussions) add(discussed);
   }
 
   [[nodiscard]] std::vector<std::vector<ObservedPeriod>> people() const {
     std::vector<std::vector<ObservedPeriod>> result;
     for (const auto& periods : people_) {
       auto& person = result.emplace_back();
-      for (const auto& [number, period] : periods) {
-        person.push_back(period);
-        person.back().all_correct = std::all_of(period.verdicts.begin(), period.verdicts.end(),
-                                                [](const Verdict& verdict) { return verdict.correct; });
-      }
+      for (const auto& [number, period] : periods) person.push_back(period);
     }
     return result;
   }
@@ -72,6 +75,13 @@ class Observations {
           std::find(period.feedback.begin(), period.feedback.end(), half_space) == period.feedback.end();
       if (is_new) period.feedback.push_back(half_space);
     }
+  }
+
+  // What was answered in the end is what was right or wrong.
+  void add(const DiscussionRecord& answer) {
+    auto& period = at(answer.member, answer.period, answer.component);
+    period.all_correct = answer.revised_correct && (period.all_correct || !period.discussed);
+    period.discussed = true;
   }
 
   const Atlas& atlas_;

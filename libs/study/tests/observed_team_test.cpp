@@ -31,7 +31,7 @@ class Witness : public TeamObserver {
   }
 };
 
-Study study_of(const std::string& strategy) {
+Study study_of(const std::string& strategy, const std::string& group = {}) {
   const auto text = R"(schema = "kith.study/1"
 id = "observed"
 domain = "item-delivery"
@@ -47,14 +47,15 @@ particles = 100
 [stop]
 max_periods = 4
 duplicate_sets = 2
-)";
+)" + group;
   return parse_study(text, "observed.toml").study.value();
 }
 
 // The record of a team says as much of its members as the session does.
 TEST(ObservedPeople, AreThoseOfTheSession) {
-  for (const std::string strategy : {"joint", "baseline"}) {
-    const auto study = study_of(strategy);
+  const std::string talk = "[group.discussion]\nmodel = \"truth-wins\"\n";
+  for (const auto& [strategy, group] : {std::pair{"joint", ""}, {"baseline", ""}, {"joint", talk.c_str()}}) {
+    const auto study = study_of(strategy, group);
     TeachingCache cache{item_delivery()};
     Witness witness;
     const auto record = run_team(item_delivery(), cache, study.variants.front(), team_address(study, 1), &witness);
@@ -71,6 +72,7 @@ TEST(ObservedPeople, AreThoseOfTheSession) {
         EXPECT_EQ(one.answers, expected[p].answers);
         EXPECT_EQ(one.verdicts, expected[p].verdicts);
         EXPECT_EQ(one.all_correct, expected[p].all_correct);
+        EXPECT_EQ(one.discussed, expected[p].discussed);
         EXPECT_EQ(one.feedback, expected[p].feedback);
         ASSERT_EQ(one.demonstrations.size(), expected[p].demonstrations.size());
         for (std::size_t d = 0; d < one.demonstrations.size(); ++d) {

@@ -21,7 +21,9 @@ std::vector<KindProbability> kinds_after(TeachingCache& cache, const TeachingOpt
   for (const auto& period : periods) {
     if (before == nullptr || before->component != period.component) bank.begin_component();
     if (before != nullptr) {
-      bank.let_time_pass(minutes_of(options.pace, before->demonstrations.size(), before->tests.size()), period.period);
+      const auto minutes =
+          minutes_of(options.pace, before->demonstrations.size(), before->tests.size(), before->discussed);
+      bank.let_time_pass(minutes, period.period);
     }
     std::vector<StartIndex> demos;
     std::vector<HalfSpace> conveyed;

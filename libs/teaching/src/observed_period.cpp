@@ -15,6 +15,7 @@ std::vector<ObservedPeriod> observed_periods(const PastPeriods& history, std::si
                        .answers = past.answers[member],
                        .verdicts = feedback.verdicts[member],
                        .all_correct = feedback.all_right_in_the_end(member),
+                       .discussed = !past.revised.empty(),
                        .feedback = feedback.half_spaces});
   }
   return periods;

@@ -14,9 +14,10 @@ struct ObservedPeriod {
   std::size_t component = 0;                  ///< Index into Atlas::knowledge_components().
   std::vector<Demonstration> demonstrations;  ///< Only `demo` and `half_spaces` are read.
   std::vector<Test> tests;
-  std::vector<Answer> answers;    ///< One per test; none where the person gave none.
-  std::vector<Verdict> verdicts;  ///< One per test.
-  bool all_correct = false;
+  std::vector<Answer> answers;      ///< One per test; none where the person gave none.
+  std::vector<Verdict> verdicts;    ///< One per test.
+  bool all_correct = false;         ///< In the end, where answers were discussed.
+  bool discussed = false;           ///< Whether the group talked about its answers.
   std::vector<HalfSpace> feedback;  ///< What the feedback taught; empty if the person heard none.
   friend bool operator==(const ObservedPeriod&, const ObservedPeriod&) = default;
 };
