@@ -186,6 +186,26 @@ export function lookTests({ withPage, violations, shoot }) {
     });
   });
 
+  it('shows what an answer was changed to in a discussion', async () => {
+    for (const dark of [false, true]) {
+      await withPage({ calm: true, dark }, async (page, mock) => {
+        const ends = (answer, i) => (i % 4 === 0 ? { ...answer, changed: true, right_in_the_end: i % 8 === 0 } : answer);
+        mock.change = (detail) => ({ ...detail, answers: detail.answers.map(ends) });
+        await openRoom(page, 'Room A1');
+        const cells = await page.$$eval('.answer-cell [role=img]', (all) =>
+          all.map((one) => [one.getAttribute('aria-label'), [...one.children].map((part) => part.textContent || part.getAttribute('class')).join(' ')]),
+        );
+        assert.equal(cells.filter(([, shown]) => shown.includes('\u2192')).length, Math.ceil(cells.length / 4));
+        for (const [text, shown] of cells) {
+          const [, first, end] = /^(right|wrong).*?(?:, then changed to a (right|wrong) one)?$/.exec(text);
+          assert.equal(shown, end ? `${first} \u2192 ${end}` : first, text);
+        }
+        assert.deepEqual(await violations(page), []);
+        await shoot(page, `changed-${dark ? 'dark' : 'light'}`);
+      });
+    }
+  });
+
   it('says what kind of learner everybody seems to be, where the study asks for it', async () => {
     const kinds = [
       ['imitating', { bayesian: 0.04, imitating: 0.951, slipping: 0.009, decaying: 0.002 }],

@@ -92,7 +92,7 @@ async function seesWhoChanged(setting, { facilitator }) {
   await page.goto(facilitator);
   await page.click('nav button:text-is("Live")');
   await page.waitForSelector('.answer-cell.wrong');
-  const texts = await page.$$eval('.answer-cell svg', (cells) => cells.map((cell) => cell.getAttribute('aria-label')));
+  const texts = await page.$$eval('.answer-cell [role=img]', (cells) => cells.map((cell) => cell.getAttribute('aria-label')));
   assert.deepEqual(texts.map((text) => /, then changed to a right one$/.test(text)), texts.map((text) => text.startsWith('wrong')));
   await page.context().close();
 }

@@ -1,5 +1,5 @@
 // Everybody in the room, one row each: who is there, what they are doing, and all their answers.
-import type { JSX } from 'preact';
+import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { duration } from '../../shared/duration';
 import { secondsText, useNow } from '../clock';
@@ -212,7 +212,8 @@ interface CellProps {
   isFirst: boolean;
 }
 
-// A tick on green or a cross on orange; the line below is the time taken, relative to the longest in the room.
+// A tick on green or a cross on orange; the line below is the time taken, relative to the longest in the room. An answer
+// that was changed after a discussion is followed by what it was then.
 function Cell({ answer, where, longest, isFirst }: CellProps): JSX.Element {
   const first = isFirst ? ' first' : '';
   if (!answer) {
@@ -225,13 +226,24 @@ function Cell({ answer, where, longest, isFirst }: CellProps): JSX.Element {
   const text = `${where}: ${answerText(answer)}`;
   return (
     <td class={`answer-cell ${answer.right ? 'right' : 'wrong'}${first}`} data-tip={text.charAt(0).toUpperCase() + text.slice(1)}>
-      <svg viewBox="0 0 16 18" width="16" height="18" role="img" aria-label={answerText(answer)}>
-        <rect class="ground" x={0.5} y={0.5} width={15} height={13} rx={2.5} />
-        {answer.right && <path class="mark" d="M4.2 7.2 7 10 11.8 4.2" />}
-        {!answer.right && <path class="mark" d="M5 4 11 10M11 4 5 10" />}
-        {answer.stopped_short && <path class="short" d="M13 2.5V11.5" />}
-        <path class="time" d={`M1 16.5h${(14 * Math.min(1, answer.ms / longest)).toFixed(1)}`} />
-      </svg>
+      <span role="img" aria-label={answerText(answer)}>
+        <Verdict right={answer.right}>
+          {answer.stopped_short && <path class="short" d="M13 2.5V11.5" />}
+          <path class="time" d={`M1 16.5h${(14 * Math.min(1, answer.ms / longest)).toFixed(1)}`} />
+        </Verdict>
+        {answer.changed && <span class="then">{'\u2192'}</span>}
+        {answer.changed && <Verdict right={answer.right_in_the_end === true} />}
+      </span>
     </td>
+  );
+}
+
+function Verdict({ right, children }: { right: boolean; children?: ComponentChildren }): JSX.Element {
+  return (
+    <svg class={right ? 'right' : 'wrong'} viewBox="0 0 16 18" width="16" height="18">
+      <rect class="ground" x={0.5} y={0.5} width={15} height={13} rx={2.5} />
+      <path class="mark" d={right ? 'M4.2 7.2 7 10 11.8 4.2' : 'M5 4 11 10M11 4 5 10'} />
+      {children}
+    </svg>
   );
 }
