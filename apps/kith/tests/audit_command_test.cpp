@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "run_kith.hpp"
@@ -68,6 +69,37 @@ TEST_F(AuditCommand, WritesAPageThatLoadsNothing) {
   EXPECT_THAT(page, HasSubstr("<!doctype html>"));
   EXPECT_THAT(page, HasSubstr("Who understands what"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+// In text, JSON and page alike; of a study that does not ask, nothing is said.
+TEST_F(AuditCommand, SaysWhatKindOfLearnerEverybodySeemsToBe) {
+  const auto asks = *scratch_ / "asks";
+  auto command = study(asks, "replicates=1");
+  for (const char* setting : {"teacher.hypotheses=\"kinds\"", "learner.N.kind=\"imitating\"", "stop.max_periods=5"})
+    command.insert(command.end(), {"--set", setting});
+  ASSERT_EQ(run_kith(command).code, 0);
+  const auto people = Json::parse(run_kith({"audit", asks, "--json"}).out).at("people");
+  ASSERT_EQ(people.size(), 4u);
+  for (const auto& person : people) {
+    double sum = 0.0, most = 0.0;
+    std::string likeliest;
+    for (const auto& [kind, probability] : person.at("kinds").items()) {
+      sum += probability.get<double>();
+      if (probability.get<double>() > most) likeliest = kind;
+      most = std::max(most, probability.get<double>());
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+    EXPECT_EQ(person.at("kind"), most >= 0.8 ? likeliest : "cannot tell yet") << person.at("kinds");
+  }
+  const auto text = run_kith({"audit", asks}).out;
+  const std::string line = "\n  kind of learner: ";
+  std::size_t lines = 0;
+  for (auto at = text.find(line); at != std::string::npos; at = text.find(line, at + 1)) ++lines;
+  EXPECT_EQ(lines, people.size()) << text;
+  EXPECT_THAT(run_kith({"audit", asks, "-o", "-", "-q"}).out, HasSubstr("<p>Kind of learner: "));
+
+  EXPECT_FALSE(Json::parse(run_kith({"audit", run(), "--json"}).out).at("people").at(0).contains("kind"));
+  EXPECT_THAT(run_kith({"audit", run()}).out, Not(HasSubstr("kind of learner")));
 }
 
 TEST_F(AuditCommand, NeedsAnswers) {

@@ -20,18 +20,14 @@ class TeamLog final : public TeamObserver {
   std::optional<Session> end;
 };
 
-class RoomsOfStandIns
-    : public ::testing::TestWithParam<std::tuple<const char*, const char*, std::size_t, const char*>> {};
-
-// A live session of simulated learners and `kith study` give the same lessons and beliefs, to the bit.
-TEST_P(RoomsOfStandIns, EqualTheStudy) {
-  const auto [strategy, composition, replicate, model] = GetParam();
-  const auto study = live_study("[group.discussion]\nmodel = \"" + std::string{model} + "\"\n");
+// A live session of simulated learners and `kith study` give the same answers, lessons and beliefs, to the bit.
+void expect_room_equals_study(const std::shared_ptr<const LiveStudy>& study, const std::string& strategy,
+                              const std::string& composition, std::size_t replicate) {
   Play play{study, RoomSetup{.id = "r",
                              .code = "c",
                              .strategy = strategy,
                              .composition = composition,
-                             .simulated = std::vector<bool>(std::string{composition}.size(), true),
+                             .simulated = std::vector<bool>(composition.size(), true),
                              .replicate = replicate}};
   play.settle();
   EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
@@ -46,7 +42,7 @@ TEST_P(RoomsOfStandIns, EqualTheStudy) {
   ASSERT_TRUE(log.end);
   const auto& live = play.room().session();
   ASSERT_GT(record.periods, 2u);
-  EXPECT_EQ(record.discussions.empty(), model == std::string_view{"none"});
+  EXPECT_EQ(record.discussions.empty(), !study->group().discussion.choice.is_held());
   EXPECT_EQ(live.periods(), record.periods);
   ASSERT_EQ(live.history().size(), log.end->history().size());
   EXPECT_TRUE(std::equal(live.history().begin(), live.history().end(), log.end->history().begin()));
@@ -58,6 +54,32 @@ TEST_P(RoomsOfStandIns, EqualTheStudy) {
   const auto again = replay(study, play.room().setup(), play.events(), other);
   EXPECT_EQ(again.session().belief(), live.belief());
   EXPECT_EQ(again.digest(), play.room().digest());
+}
+
+class RoomsOfStandIns
+    : public ::testing::TestWithParam<std::tuple<const char*, const char*, std::size_t, const char*>> {};
+
+TEST_P(RoomsOfStandIns, EqualTheStudy) {
+  const auto [strategy, composition, replicate, model] = GetParam();
+  expect_room_equals_study(live_study("[group.discussion]\nmodel = \"" + std::string{model} + "\"\n"), strategy,
+                           composition, replicate);
+}
+
+// Also people of every kind, with time to forget, and of a mixture; the teacher asks what kind they are.
+TEST(RoomsOfEveryKind, EqualTheStudy) {
+  std::vector<std::string> types{"mixture = { N = 0.5, P = 0.5 }"};
+  for (const auto* model : learner_models()) {
+    types.push_back("kind = \"" + std::string{model->kind} +
+                    "\"\nability = { mean = 0.75, sd = 0.05 }\nconfirm_gain = { half_normal = 0.03 }\n"
+                    "correct_gain = { half_normal = 0.05 }");
+  }
+  for (const auto& type : types) {
+    SCOPED_TRACE(type);
+    const auto study =
+        live_study("hypotheses = \"kinds\"\n[stop]\nmax_periods = 6\n[pace]\ntest_s = 60\n[learner.K]\n" + type +
+                   "\n[group.discussion]\nmodel = \"majority\"\n");
+    expect_room_equals_study(study, "joint", "KKN", 1);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
