@@ -47,6 +47,18 @@ const std::array kParameters{
                              "proportion less for a component with more than four constraints"},
 };
 
+// What is best for people who imitate harms all others, and what is best on average wastes the items of both: of the two
+// sorts the likelier is left. Somebody imitates, for instance, only once answers say so.
+void leave_likelier_sort(std::vector<MemberHypothesis>& hypotheses) {
+  const auto imitates = [](const MemberHypothesis& one) { return one.imitation.probability > 0.0; };
+  double imitators = 0.0;
+  for (const auto& one : hypotheses) imitators += imitates(one) ? one.weight : 0.0;
+  const bool left = imitators > 0.5;
+  for (auto& one : hypotheses) {
+    one.weight = imitates(one) == left ? one.weight / (left ? imitators : 1.0 - imitators) : 0.0;
+  }
+}
+
 }  // namespace
 
 Lookahead::Lookahead(const ParameterValues& values)
@@ -91,6 +103,7 @@ std::vector<std::vector<MemberHypothesis>> Lookahead::mixed(const TeachingView& 
     const auto beforehand = bank.weights_beforehand();
     double temperature = 0.0;  // summed over the answers that are imitations
     auto hypotheses = bank.as_members(view.bank->begins(view.component));
+    if (weighing == Weighing::kPosterior) leave_likelier_sort(hypotheses);
     for (std::size_t h = 0; h < hypotheses.size(); ++h) {
       auto& one = hypotheses[h];
       if (weighing == Weighing::kBeforehand) one.weight = beforehand[h];
