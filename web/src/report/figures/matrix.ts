@@ -14,15 +14,18 @@ const kHeight = 27;
 const kFaintest = 0.04; // opacity of the best value; text stays readable on the strongest
 const kStrongest = 0.44;
 const kWide = 20; // from the least to the greatest value, a scale of ratios tells more
+const kRange = 1000; // and smaller parts of the greatest, such as none, look alike
 
 const levels = (rows: Row[], name: string): string[] => [...new Set(rows.map((row) => String(row[name])))];
 const valuesOf = (rows: Row[], { column }: Outcome): number[] =>
   rows.map((row) => num(row[`${column}_mean`])).filter((value): value is number => value !== null);
-const isOfRatios = (values: number[]): boolean => Math.min(...values) > 0 && Math.max(...values) > kWide * Math.min(...values);
+const isOfRatios = (values: number[]): boolean =>
+  Math.min(...values) >= 0 && Math.max(...values) > kWide * Math.min(...values);
 
 // How bad a value is among all of an outcome, from 0 to 1.
 function badness(values: number[], { less_is_better: less }: Outcome): (value: number) => number {
-  const place = isOfRatios(values) ? Math.log : (value: number): number => value;
+  const floor = Math.max(...values) / kRange;
+  const place = isOfRatios(values) ? (value: number): number => Math.log(Math.max(value, floor)) : (value: number): number => value;
   const [least, most] = [place(Math.min(...values)), place(Math.max(...values))];
   return (value) => {
     const share = most > least ? (place(value) - least) / (most - least) : 0;
