@@ -88,10 +88,23 @@ std::string traceback_of(const py::error_already_set& raised) {
 
 }  // namespace
 
+Lock::Lock() {
+  struct AtEndOfThread {
+    ~AtEndOfThread() {
+      if (Py_IsInitialized() == 0) return;
+      py::gil_scoped_acquire lock;
+      lock.dec_ref();
+    }
+  };
+  if (!is_first_) return;
+  thread_local AtEndOfThread release;
+  lock_.inc_ref();
+}
+
 SharedObject::SharedObject(py::object object)
     : object_{new py::object{std::move(object)}, [](py::object* last) {
                 if (Py_IsInitialized() == 0) return;  // the interpreter is gone, and its objects with it
-                const py::gil_scoped_acquire lock;
+                const Lock lock;
                 delete last;
               }} {}
 

@@ -12,6 +12,17 @@
 
 namespace kith::python {
 
+/// The interpreter's lock for threads of the libraries. What Python keeps of such a thread lasts as long as the thread:
+/// making it anew for every call takes longer than most calls.
+class Lock {
+ public:
+  Lock();
+
+ private:
+  bool is_first_ = PyGILState_GetThisThreadState() == nullptr;
+  py::gil_scoped_acquire lock_;
+};
+
 /// A Python object that may be copied and dropped by threads that do not hold the interpreter's lock.
 class SharedObject {
  public:

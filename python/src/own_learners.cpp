@@ -112,7 +112,7 @@ class OwnLearner final : public Learner {
 
   template <typename Body>
   std::invoke_result_t<Body, const py::object&> with_object(Body body) const {
-    const py::gil_scoped_acquire lock;
+    const Lock lock;
     return calling(*slot_, [&]() -> std::invoke_result_t<Body, const py::object&> { return body(object_.get()); });
   }
 
@@ -127,7 +127,7 @@ std::unique_ptr<Learner> make_learner(const ParameterValues&, std::span<const do
   const auto& slot = slots[I];
   const auto& cover = start.cover(kCoverPoints);
   auto belief = std::make_shared<const ParticleBelief>(cover, FilterOptions{.particles = kCoverPoints});
-  const py::gil_scoped_acquire lock;
+  const Lock lock;
   return calling(slot, [&]() -> std::unique_ptr<Learner> {
     const auto own = py::cast(Start{{std::move(belief), random.split("belief"), 0}, random.split("own")});
     return std::make_unique<OwnLearner>(slot, SharedObject{py::handle{slot.make}(own)});

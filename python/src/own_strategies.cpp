@@ -166,7 +166,7 @@ class OwnStrategy final : public Strategy {
   OwnStrategy(const StrategySlot& slot, SharedObject object) : slot_{&slot}, object_{std::move(object)} {}
 
   [[nodiscard]] std::unique_ptr<Strategy> clone() const override {
-    const py::gil_scoped_acquire lock;
+    const Lock lock;
     return call([&] {
       return std::make_unique<OwnStrategy>(*slot_,
                                            SharedObject{py::module_::import("copy").attr("deepcopy")(object_.get())});
@@ -174,7 +174,7 @@ class OwnStrategy final : public Strategy {
   }
 
   [[nodiscard]] UnitProposal propose(const TeachingView& view, UnitSelector& select, RandomStream random) override {
-    const py::gil_scoped_acquire lock;
+    const Lock lock;
     return call([&]() -> UnitProposal {
       const OpenView open{std::make_shared<View>(view, select, random)};
       const py::object chosen = object_.get().attr("propose")(open.view);
@@ -206,7 +206,7 @@ class OwnStrategy final : public Strategy {
 
 template <std::size_t I>
 std::unique_ptr<Strategy> make_strategy(const ParameterValues&) {
-  const py::gil_scoped_acquire lock;
+  const Lock lock;
   const auto& slot = slots[I];
   return OwnStrategy::calling(slot, [&]() -> std::unique_ptr<Strategy> {
     return std::make_unique<OwnStrategy>(slot, SharedObject{py::handle{slot.make}()});

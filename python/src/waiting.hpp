@@ -56,9 +56,13 @@ std::invoke_result_t<Work> wait_for(Watch& watch, const py::object& on_progress,
       watch.stop = true;
     }
   }
-  if (!raised) return future.get();
+  const auto get = [&] {
+    const py::gil_scoped_release unlocked;  // the thread may need the lock to end
+    return future.get();
+  };
+  if (!raised) return get();
   try {
-    (void)future.get();
+    (void)get();
   } catch (...) {  // because it was stopped
   }
   throw *raised;

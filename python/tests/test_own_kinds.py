@@ -2,6 +2,7 @@
 
 import pathlib
 import tempfile
+import threading
 import unittest
 
 import kith
@@ -103,6 +104,18 @@ class Strategies(unittest.TestCase):
             np.testing.assert_array_equal(mine, teams[teams["strategy"] == "joint"]["knowledge"].to_numpy())
             runs[0].verify(progress=False)
             runs[0].report()
+
+    def test_a_thread_is_the_same_to_python_for_the_whole_study(self):
+        kept, counts = threading.local(), []
+
+        class Counting:
+            def propose(self, view):
+                kept.calls = getattr(kept, "calls", 0) + 1
+                counts.append(kept.calls)
+                return "joint"
+        kith.study("quick", threads=1, progress=False, strategies=[Counting], replicates=2, **SMALL)
+        self.assertEqual(counts, list(range(1, len(counts) + 1)))
+        self.assertGreater(len(counts), 4)
 
     def test_what_it_raises_ends_the_study_which_can_be_resumed(self):
         with tempfile.TemporaryDirectory() as folder:
