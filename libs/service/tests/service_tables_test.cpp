@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -75,6 +76,36 @@ TEST(LiveService, ExportsStandInsForPeopleWhoDidNotCome) {
   ASSERT_EQ(rows.size(), 1u + 3u + 2u) << tables.at("participants.csv");
   EXPECT_EQ(rows[4].rfind("r1,4,2,", 0), 0u) << rows[4];  // the fourth seat is the second member's
   EXPECT_EQ(rows[5].rfind("r1,5,3,", 0), 0u) << rows[5];
+
+  // Both tables say the same of everybody, stand-ins, too.
+  const auto column = [](const std::string& table, const std::string& name) {
+    std::istringstream lines{table};
+    std::vector<std::string> cells;
+    std::optional<std::size_t> place;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream parts{line};
+      std::vector<std::string> row;
+      for (std::string part; std::getline(parts, part, ',');) row.push_back(part);
+      if (place) cells.push_back(row.at(*place));
+      if (!place) place = static_cast<std::size_t>(std::find(row.begin(), row.end(), name) - row.begin());
+    }
+    return cells;
+  };
+  const auto answered = column(tables.at("tests.csv"), "seat"), correct = column(tables.at("tests.csv"), "correct");
+  const auto seats = column(tables.at("participants.csv"), "seat"),
+             right = column(tables.at("participants.csv"), "right"),
+             tests = column(tables.at("participants.csv"), "tests");
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    std::size_t num_tests = 0, num_right = 0;
+    for (std::size_t k = 0; k < answered.size(); ++k) {
+      if (answered[k] != seats[i]) continue;
+      ++num_tests;
+      num_right += correct[k] == "true" ? 1u : 0u;
+    }
+    EXPECT_EQ(tests[i], std::to_string(num_tests)) << "seat " << seats[i];
+    EXPECT_EQ(right[i], std::to_string(num_right)) << "seat " << seats[i];
+  }
+  EXPECT_NE(tests[3], "0");
 }
 
 // While people read the feedback the next lesson is chosen; if one of them leaves, it is chosen again.

@@ -6,41 +6,7 @@
 namespace kith {
 namespace {
 
-// What a row of tests.csv is about.
-struct GivenAnswer {
-  std::size_t period = 0;
-  std::size_t test = 0;  // from 0
-  std::size_t seat = 0;
-  std::size_t member = 0;
-  const AnswerRow* answer = nullptr;
-  [[nodiscard]] auto key() const { return std::tuple{period, test, member, seat}; }
-};
-
 struct AnswerTables : RoomExport {
-  [[nodiscard]] std::vector<GivenAnswer> given_answers() const {
-    std::vector<GivenAnswer> rows;
-    for (const auto& answer : history.answers) {
-      rows.push_back({.period = answer.period,
-                      .test = answer.test,
-                      .seat = answer.seat,
-                      .member = answer.member,
-                      .answer = &answer});
-    }
-    for (const auto& [seat, person] : history.seats) {
-      if (!person.simulated || !person.member) continue;
-      for (std::size_t period = 1; period <= session().history().size(); ++period) {
-        const auto& verdicts = session().history()[period - 1].feedback.verdicts[*person.member - 1];
-        const auto* lesson = history.lesson_of(period);
-        const bool was_there = lesson != nullptr && person.joined_us <= lesson->chosen_us;
-        if (!was_there || history.seat_in(period, *person.member) != 0) continue;
-        for (std::size_t test = 0; test < verdicts.size(); ++test)
-          rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
-      }
-    }
-    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
-    return rows;
-  }
-
   void write_tests() const {
     for (const auto& test : given_answers()) {
       const auto* answer = test.answer;
@@ -173,6 +139,30 @@ struct AnswerTables : RoomExport {
 };
 
 }  // namespace
+
+std::vector<ExportedAnswer> RoomExport::given_answers() const {
+  std::vector<ExportedAnswer> rows;
+  for (const auto& answer : history.answers) {
+    rows.push_back({.period = answer.period,
+                    .test = answer.test,
+                    .seat = answer.seat,
+                    .member = answer.member,
+                    .answer = &answer});
+  }
+  for (const auto& [seat, person] : history.seats) {
+    if (!person.simulated || !person.member) continue;
+    for (std::size_t period = 1; period <= session().history().size(); ++period) {
+      const auto& verdicts = session().history()[period - 1].feedback.verdicts[*person.member - 1];
+      const auto* lesson = history.lesson_of(period);
+      const bool was_there = lesson != nullptr && person.joined_us <= lesson->chosen_us;
+      if (!was_there || history.seat_in(period, *person.member) != 0) continue;
+      for (std::size_t test = 0; test < verdicts.size(); ++test)
+        rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
+    }
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
+  return rows;
+}
 
 void write_answers(const RoomExport& room) {
   const AnswerTables tables{room};

@@ -2,6 +2,8 @@
 
 #include <map>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "export_tables.hpp"
 #include "kith/files/sha256.hpp"
@@ -54,6 +56,16 @@ class TableWriters {
   std::map<std::string, CsvWriter> writers_;
 };
 
+// What a row of tests.csv is about.
+struct ExportedAnswer {
+  std::size_t period = 0;
+  std::size_t test = 0;  // from 0
+  std::size_t seat = 0;
+  std::size_t member = 0;
+  const AnswerRow* answer = nullptr;  // null: of a stand-in
+  [[nodiscard]] auto key() const { return std::tuple{period, test, member, seat}; }
+};
+
 // A room whose rows are written.
 struct RoomExport {
   const LiveStudy& study;
@@ -65,6 +77,8 @@ struct RoomExport {
   [[nodiscard]] const std::string& id() const { return history.replayed.id; }
   [[nodiscard]] const RoomSetup& setup() const { return history.room->setup(); }
   [[nodiscard]] const Session& session() const { return history.room->session(); }
+  // Of people and stand-ins, in the order of the table.
+  [[nodiscard]] std::vector<ExportedAnswer> given_answers() const;
 };
 
 // Who was there, what was taught, what the teacher believed, and all events.

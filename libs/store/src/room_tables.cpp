@@ -77,9 +77,9 @@ struct RoomTables : RoomExport {
 
   void write_participant(std::size_t seat, const SeatRow& person) const {
     std::size_t tests = 0, right = 0;
-    for (const auto& answer : history.answers) {
-      const bool is_own = answer.seat == seat && !history.is_void(answer);
-      const auto* judged = is_own ? history.verdict(answer.period, answer.member, answer.test) : nullptr;
+    for (const auto& given : given_answers()) {
+      const bool is_own = given.seat == seat && (given.answer == nullptr || !history.is_void(*given.answer));
+      const auto* judged = is_own ? history.verdict(given.period, given.member, given.test) : nullptr;
       if (judged == nullptr) continue;
       ++tests;
       right += judged->correct ? 1u : 0u;
