@@ -36,7 +36,7 @@ std::unique_ptr<Learner> somebody(TeachingCache& cache, const LearnerModel& mode
 }
 
 // Two people of these models taught for some periods.
-Session taught(TeachingCache& cache, const TeachingOptions& options, const char* strategy,
+Session taught(TeachingCache& cache, const TeachingOptions& options, const StrategyChoice& strategy,
                const std::vector<const LearnerModel*>& models, const std::vector<std::uint64_t>& seeds,
                std::size_t periods, const DiscussionChoice& discussion = {}) {
   std::vector<RandomStream> persons;
@@ -45,7 +45,7 @@ Session taught(TeachingCache& cache, const TeachingOptions& options, const char*
     persons.push_back(RandomStream{seeds[i]});
     people.push_back(somebody(cache, *models[i], persons.back().split("learner")));
   }
-  Session session{cache, options, strategy_named(strategy), persons, RandomStream{1}};
+  Session session{cache, options, strategy, persons, RandomStream{1}};
   for (std::size_t t = 0; t < periods && session.propose(cache); ++t) {
     run_period(session, cache, people, {.discussion = discussion, .talk = persons});
   }
@@ -80,7 +80,8 @@ TEST(PresumedKinds, AreToldByTheirAnswers) {
   const auto mean_posterior = [&](const LearnerModel& true_kind, std::string_view kind) {
     double sum = 0.0;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const auto session = taught(cache, asking(), "joint", {&true_kind, &true_kind}, {10 * seed, 10 * seed + 1}, 9);
+      const auto session =
+          taught(cache, asking(), strategy_named("joint"), {&true_kind, &true_kind}, {10 * seed, 10 * seed + 1}, 9);
       for (std::size_t i = 0; i < 2; ++i) {
         const auto kinds = session.bank()->member(i).kinds();
         const double all = std::accumulate(kinds.begin(), kinds.end(), 0.0,
@@ -99,8 +100,8 @@ TEST(PresumedKinds, AreTheSameFromOutside) {
   TeachingCache cache{item_delivery()};
   const auto options = asking();
   for (const auto& talk : discussion_models()) {  // which takes time, too
-    const auto session = taught(cache, options, "joint", {&imitating_model(), &decaying_model()}, {3, 4}, 4,
-                                {&talk, ParameterValues{talk.parameters}});
+    const auto session = taught(cache, options, strategy_named("joint"), {&imitating_model(), &decaying_model()},
+                                {3, 4}, 4, {&talk, ParameterValues{talk.parameters}});
     for (std::size_t i = 0; i < 2; ++i) {
       const auto seen =
           kinds_after(cache, options, observed_periods(session.history(), i), RandomStream{3 + i}.split("bank"));
@@ -111,17 +112,18 @@ TEST(PresumedKinds, AreTheSameFromOutside) {
 
 // Laws of sessions: replayed they are the same, and seats do not matter.
 TEST(PresumedKinds, ReplayAndChangeSeats) {
-  for (const char* strategy : {"plan", "adaptive"}) {
+  for (const char* name : {"plan", "adaptive"}) {
+    const auto strategy = strategy_named(name);
     TeachingCache cache{item_delivery()};
     const auto options = asking();
     const auto session = taught(cache, options, strategy, {&imitating_model(), &decaying_model()}, {5, 6}, 3);
-    Session again{cache, options, strategy_named(strategy), {RandomStream{5}, RandomStream{6}}, RandomStream{1}};
+    Session again{cache, options, strategy, {RandomStream{5}, RandomStream{6}}, RandomStream{1}};
     for (const auto& event : session.events()) again.apply(event, cache);
-    EXPECT_TRUE(again == session) << strategy;
+    EXPECT_TRUE(again == session) << name;
     const auto other = taught(cache, options, strategy, {&decaying_model(), &imitating_model()}, {6, 5}, 3);
     ASSERT_EQ(other.periods(), session.periods());
     for (std::size_t t = 0; t < session.periods(); ++t) {
-      EXPECT_EQ(other.history()[t].lesson.demonstrations, session.history()[t].lesson.demonstrations) << strategy;
+      EXPECT_EQ(other.history()[t].lesson.demonstrations, session.history()[t].lesson.demonstrations) << name;
     }
     EXPECT_EQ(other.bank()->member(0).kinds(), session.bank()->member(1).kinds());
   }
@@ -130,13 +132,20 @@ TEST(PresumedKinds, ReplayAndChangeSeats) {
 // Whoever is sure that people do not imitate does not choose other lessons than who does not think of it.
 TEST(PresumedKinds, ChangeLessonsForPeopleWhoImitate) {
   TeachingCache cache{item_delivery()};
-  const auto lesson_for = [&](const std::vector<std::string>& kinds) {
-    return taught(cache, asking(kinds), "plan", {&bayesian_model(), &bayesian_model()}, {7, 8}, 1)
+  const auto first_lesson = [&](const StrategyChoice& strategy, const std::vector<std::string>& kinds) {
+    return taught(cache, asking(kinds), strategy, {&bayesian_model(), &bayesian_model()}, {7, 8}, 1)
         .history()[0]
         .lesson.demonstrations;
   };
-  EXPECT_EQ(lesson_for({"bayesian"}).front().demo, lesson_for({"slipping"}).front().demo);
-  EXPECT_NE(lesson_for({"bayesian"}).front().demo, lesson_for({"imitating"}).front().demo);
+  const auto plan = strategy_named("plan");
+  EXPECT_EQ(first_lesson(plan, {"bayesian"}).front().demo, first_lesson(plan, {"slipping"}).front().demo);
+  EXPECT_NE(first_lesson(plan, {"bayesian"}).front().demo, first_lesson(plan, {"imitating"}).front().demo);
+  // "adaptive" waits until somebody is likelier to imitate than not.
+  auto adaptive = strategy_named("adaptive");
+  adaptive.parameters.set("answers", 0.0);
+  EXPECT_EQ(first_lesson(adaptive, {"bayesian", "slipping", "imitating"}),
+            first_lesson(adaptive, {"bayesian", "slipping"}));
+  EXPECT_NE(first_lesson(adaptive, {"slipping", "imitating", "imitating"}), first_lesson(adaptive, {"slipping"}));
 }
 
 // What imitators do with the robot's own demonstration of a start is right.
