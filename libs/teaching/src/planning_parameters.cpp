@@ -47,8 +47,8 @@ const std::array kParameters{
                              "proportion less for a component with more than four constraints"},
 };
 
-// What is best for people who imitate harms all others, and what is best on average is nearly that, as imitators have so
-// much more at stake: of the two sorts only the likelier is left.
+// What is best for people who imitate harms all others, and what is best on average is nearly that, as imitators have
+// so much more at stake: of the two sorts only the likelier is left.
 void leave_likelier_sort(std::vector<MemberHypothesis>& hypotheses) {
   const auto imitates = [](const MemberHypothesis& one) { return one.imitation.probability > 0.0; };
   double imitators = 0.0;
