@@ -4,9 +4,9 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
-# In minutes of two cores, the build included, 90 in all; a part that takes longer is stopped.
+# In minutes of two cores, the build included; a part that takes longer is stopped.
 night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
-declare -A budget=([release]=14 [ratios]=3 [headers]=4 [asan]=10 [tsan]=6 [python]=6 [lesson]=12 [fuzz]=10 [coverage]=4
+declare -A budget=([release]=14 [ratios]=3 [headers]=4 [asan]=14 [tsan]=6 [python]=6 [lesson]=12 [fuzz]=10 [coverage]=4
   [slow]=22 [tidy]=6)
 usage() {
   cat <<TEXT
@@ -19,7 +19,7 @@ usage: ./test.sh             what has to pass before anything is merged:
                                release  all tests, and the benchmarks built
                                ratios   speed against plain implementations
                                headers  every public header compiled alone
-                               asan     all layers under ASan and UBSan
+                               asan     all layers and the module for Python under ASan and UBSan
                                tsan     those that use threads, under TSan
                                python   the module for Python: its tests, notebooks
                                fuzz     every fuzz target, MINUTES (5) in all
@@ -162,7 +162,12 @@ run_part() {
         part "ratios" tests/rivals/ratios.py build/release/bin/kith_rivals_bench build/release/bin/kith
       ;;
     headers) part "headers alone" configure_and_build release -- all_verify_interface_header_sets ;;
-    asan) asan "${layers[@]}" ;;
+    asan)
+      asan "${layers[@]}" &&
+        part "ASan: build of the module" configure_and_build asan -DKITH_PYTHON=ON \
+          -DPython3_EXECUTABLE=/usr/bin/python3 -- kith_python &&
+        part "ASan: tests of the module" run_tests asan -L python
+      ;;
     tsan)
       part "TSan: build" configure_and_build tsan -- $(tests_of "${threaded[@]}") && part "TSan: tests" run_tests tsan
       ;;
