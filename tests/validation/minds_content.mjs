@@ -200,6 +200,13 @@ export function makeContent(runs) {
     'plan-fails-on-the-lake': () => everywhere(['frozen-lake'], OTHERS, (domain, kind) => STRATEGIES.every((one) => one === 'plan' || more(domain, kind, 'plan', one))),
     'imitators-turn-it-round': () => everywhere(TABULATED, ['imitating'], (domain, kind) => PAPER.every((strategy) => more(domain, kind, 'plan', strategy))),
     'asking-helps-imitators': () => TABULATED.every((domain) => less('regret', [assuming(domain, 'any'), 'imitating', 'adaptive'], [assuming(domain, 'usual'), 'imitating', 'plan']).value > 0.25),
+    'asking-is-best': () =>
+      everywhere(TABULATED, KINDS, (domain, kind) =>
+        STRATEGIES.every((strategy) => {
+          const { value, se } = difference('regret', [assuming(domain, 'any'), kind, 'adaptive'], [domain, kind, strategy]);
+          return value <= 2 * se;
+        }),
+      ),
     'asking-costs-little': () =>
       everywhere(TABULATED, OTHERS, (domain, kind) => {
         const { value, se } = lessBy(domain, kind);
@@ -212,8 +219,6 @@ export function makeContent(runs) {
   const spread = ({ means }) => Math.max(...means) - Math.min(...means);
   const figures = {
     ...Object.fromEntries(['item-delivery', 'colored-tiles'].map((domain) => [`asking-${domain}`, () => percent(lessBy(domain, 'imitating').value)])),
-    'asking-right': () => figure(of('regret', assuming('item-delivery', 'any'), 'bayesian', 'adaptive'), 3),
-    'usual-right': () => figure(of('regret', assuming('item-delivery', 'usual'), 'bayesian', 'plan'), 3),
     'usual-decaying': () => figure(of('regret', assuming('item-delivery', 'usual'), 'decaying', 'plan'), 3),
     'order-least': () => percent(Math.min(...allChances().map((one) => one.ordered)), 1),
     'order-most': () => percent(Math.max(...allChances().map((one) => one.ordered)), 1),
