@@ -1,5 +1,6 @@
 """Domains, from everywhere."""
 
+import os
 import pathlib
 import tempfile
 import unittest
@@ -150,7 +151,7 @@ class Gymnasium(unittest.TestCase):
         before = kith.ParticleBelief(robot.prior, 2000).mass_in(robot.region)
         self.assertGreater(told.knowledge, 2 * before)
 
-    @unittest.skipUnless(PROGRAM, "there is no program")
+    @unittest.skipUnless(os.path.exists(PROGRAM), "the program is not built")
     def test_its_lesson_is_a_page_where_the_program_has_the_engine(self):
         robot = kith.Domain("icy-crossing")
         try:
