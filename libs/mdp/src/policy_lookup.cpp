@@ -437,7 +437,7 @@ class PolicyLookup::Body {
 
   // Of a discounted process.
   static constexpr Expected kNothing{};
-  const detail::ChoiceMask all_;
+  const detail::ChoiceMask all_{};
   std::optional<detail::PathValues> values_;  // empty until something is planned
   std::vector<double> expected_;              // row-major, shape [num_states + num_terminals, d]
   std::optional<Behaviour> planned_;          // where something was not clear
