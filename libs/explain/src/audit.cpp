@@ -272,7 +272,7 @@ std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& tes
     people[side] += 1.0;
     const bool fits = by_path ? cache_->behaviours().answer(test.demo, cell) == answer
                               : std::all_of(verdict.half_spaces.begin(), verdict.half_spaces.end(),
-                                            [&](const HalfSpace& h) { return h.contains(point); });
+                                            [&, &weights = point](const HalfSpace& h) { return h.contains(weights); });
     given[side] += fits ? 1.0 : 0.0;
   }
   if (given[1] == 0.0) return 0.0;
