@@ -5,13 +5,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "ability_limits.hpp"
 #include "kith/teaching/known_components.hpp"
 
 namespace kith {
 namespace {
 
-constexpr double kHighestAbility = 0.95;  // that gains lead to
-constexpr double kCertain = 1.0 - 1e-9;
 constexpr double kSureOfKind = 0.8;
 
 }  // namespace
@@ -85,7 +84,7 @@ class UsualLearner final : public PresumedLearner {
   }
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override {
     const double grown = ability_ + (all_correct ? hypothesis_.confirm_gain : hypothesis_.correct_gain);
-    ability_ = std::max(ability_, std::min(grown, kHighestAbility));
+    ability_ = std::max(ability_, std::min(grown, detail::kHighestAbility));
     observe(half_spaces, random_.split("feedback").split(period));
   }
   [[nodiscard]] double likelihood(const AnswerFit& fit, PointCells& cells) const override {
@@ -96,12 +95,13 @@ class UsualLearner final : public PresumedLearner {
   [[nodiscard]] MemberHypothesis as_member(bool begins) const override {
     const double now = begins ? hypothesis_.ability : ability_;
     const double gain = (hypothesis_.confirm_gain + hypothesis_.correct_gain) / 2.0;
-    return {1.0, &belief_, now, std::max(now, std::min(now + gain, kHighestAbility))};
+    return {1.0, &belief_, now, std::max(now, std::min(now + gain, detail::kHighestAbility))};
   }
 
  private:
   void observe(std::span<const HalfSpace> half_spaces, const RandomStream& random) {
-    belief_.observe(half_spaces, HalfSpaceLikelihood{std::min(ability_, kCertain), likelihood_, belief_.dimension()},
+    belief_.observe(half_spaces,
+                    HalfSpaceLikelihood{std::min(ability_, detail::kCertain), likelihood_, belief_.dimension()},
                     random.split(h_));
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "ability_limits.hpp"
+
 namespace kith {
 
 double KnownBelief::mass_in(std::span<const HalfSpace> half_spaces) {
@@ -58,8 +60,6 @@ void LessonBeliefs::take(std::size_t t, const ObservedPeriod& period) {
 }
 
 void LessonBeliefs::extend(std::size_t s, std::size_t h, std::size_t periods) {
-  constexpr double kMostAble = 0.95;  // that gains lead to
-  constexpr double kNearlyCertain = 1.0 - 1e-9;
   auto& chain = chains_[s][h];
   const auto& one = options_.hypotheses[h];
   for (std::size_t t = chain.after.size(); t < periods; ++t) {
@@ -70,13 +70,13 @@ void LessonBeliefs::extend(std::size_t s, std::size_t h, std::size_t periods) {
     const auto observe = [&](std::span<const HalfSpace> half_spaces, std::string_view what) {
       belief.observe(
           half_spaces,
-          HalfSpaceLikelihood{std::min(chain.ability, kNearlyCertain), options_.likelihood, belief.dimension()},
+          HalfSpaceLikelihood{std::min(chain.ability, detail::kCertain), options_.likelihood, belief.dimension()},
           random_.split(what).split(s).split(h).split(lesson.period.period));
     };
     observe(lesson.conveyed, "watch");
     chain.answering.emplace_back(belief, before);
     const double grown = chain.ability + (one.confirm_gain + one.correct_gain) / 2.0;
-    chain.ability = std::max(chain.ability, std::min(grown, kMostAble));
+    chain.ability = std::max(chain.ability, std::min(grown, detail::kHighestAbility));
     observe(lesson.period.feedback, "feedback");
     chain.after.emplace_back(std::move(belief), chain.answering.back());
   }
