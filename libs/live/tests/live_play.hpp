@@ -259,10 +259,11 @@ class Play {
     for (const auto& one : room_.replaced(event, person_on_list(num_waiting_--), now_us_)) apply(one);
   }
 
-  // Equal keys mean equal lessons, so plays of the same study share them; a replay chooses its own.
+  // Equal keys mean equal lessons, so plays of the same study share them; a replay chooses its own. Studies are kept:
+  // of one that was freed, the next would take the address and with it the lessons.
   const TaughtLesson& taught(const TeachingTask& task) {
-    static std::map<std::pair<const LiveStudy*, std::string>, TaughtLesson> known;  // studies are kept for good
-    auto& lesson = known[{study_.get(), task.key()}];
+    static std::map<std::pair<std::shared_ptr<const LiveStudy>, std::string>, TaughtLesson> known;
+    auto& lesson = known[{study_, task.key()}];
     if (lesson.key.empty()) lesson = task.run(cache_);
     return lesson;
   }
