@@ -162,12 +162,12 @@ EffectCells effect_cells(const TeamPool& pool, const Effect& effect) {
   const auto range = outcome_columns()[static_cast<std::size_t>(effect.quantity)];
   EffectCells result{.low = range.low, .high = range.high};
   const EffectData data{pool, effect};
-  const auto [groups, compositions] = cells_of(pool, effect);
+  const auto term = cells_of(pool, effect);
   const auto is_about = [&](std::size_t s, std::size_t c) {
     if (effect.kind == Effect::Kind::kContrast)
       return is_selected(pool, effect.first, s, c) || is_selected(pool, effect.second, s, c);
-    return std::find(groups.begin(), groups.end(), s) != groups.end() &&
-           std::find(compositions.begin(), compositions.end(), c) != compositions.end();
+    return std::find(term.groups.begin(), term.groups.end(), s) != term.groups.end() &&
+           std::find(term.compositions.begin(), term.compositions.end(), c) != term.compositions.end();
   };
   double center = 0.0, variance = 0.0;
   std::vector<double> imposed;
