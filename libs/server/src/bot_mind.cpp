@@ -1,5 +1,6 @@
 #include "bot_mind.hpp"
 
+#include "json_int.hpp"
 #include "kith/live/room_phase.hpp"
 
 namespace kith {
@@ -24,6 +25,12 @@ Json answers_to(const Json& items) {
   return answers;
 }
 
+// A member that is a whole number, or what to take without one.
+int int_at(const Json& object, const char* name, int otherwise) {
+  const auto found = object.find(name);
+  return found == object.end() ? otherwise : int_of(*found).value_or(otherwise);
+}
+
 std::string number(const Json& object, const char* name) {
   return object.contains(name) ? object[name].dump() : std::string{};
 }
@@ -36,21 +43,21 @@ std::string period_of(const Json& view) {
 
 BotAct path_for(const Json& task, const std::string& type, const std::string& period) {
   return {.type = type,
-          .body = {{"test", task.value("index", 0)}},
+          .body = {{"test", int_at(task, "index", 0)}},
           .key = type + period + "/" + number(task, "index"),
           .pace = 1.0,
           .world = task.value("world", ""),
-          .start = task.value("start", -1)};
+          .start = int_at(task, "start", -1)};
 }
 
 // Takes the prediction that most of the group made, and keeps the own one if that is not clear.
 BotAct decision_on(const Json& shown, const std::string& stage) {
   const auto& predictions = shown.at("predictions");
-  std::size_t most = 0;
+  int most = 0;
   bool is_tied = false;
   Json choice;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
-    const auto n = predictions[i].value("n", std::size_t{0});
+    const auto n = int_at(predictions[i], "n", 0);
     if (n < most) continue;
     is_tied = n == most;
     if (is_tied) continue;
@@ -58,7 +65,7 @@ BotAct decision_on(const Json& shown, const std::string& stage) {
     choice = predictions[i].value("own", false) ? Json{} : Json(i);
   }
   return {.type = "discuss",
-          .body = {{"test", shown.value("index", 0)}, {"choice", is_tied ? Json{} : choice}, {"ms", 0}},
+          .body = {{"test", int_at(shown, "index", 0)}, {"choice", is_tied ? Json{} : choice}, {"ms", 0}},
           .key = stage + "/" + number(shown, "index"),
           .pace = 0.5};
 }
@@ -84,7 +91,7 @@ std::optional<BotAct> act_for(const Json& view) try {
   switch (*phase) {
     case RoomPhase::kWatching:
       return BotAct{.type = "watched",
-                    .body = {{"demo", view.at("watch").value("index", 0)}},
+                    .body = {{"demo", int_at(view.at("watch"), "index", 0)}},
                     .key = stage + period + "/" + number(view["watch"], "index"),
                     .pace = 0.5};
     case RoomPhase::kTesting:

@@ -3,10 +3,28 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "json_int.hpp"
+
 namespace kith {
 namespace {
 
 using Json = nlohmann::json;
+
+// Empty where something is no state.
+std::optional<std::vector<std::vector<int>>> read_moves(const Json& json) {
+  if (!json.is_array()) return std::nullopt;
+  std::vector<std::vector<int>> moves;
+  for (const auto& state : json) {
+    if (!state.is_array()) return std::nullopt;
+    auto& to = moves.emplace_back();
+    for (const auto& next : state) {
+      const auto number = int_of(next);
+      if (!number) return std::nullopt;
+      to.push_back(*number);
+    }
+  }
+  return moves;
+}
 
 }  // namespace
 
@@ -42,8 +60,9 @@ std::optional<std::vector<int>> WorldTable::shortest_path(int start) const {
 
 std::optional<WorldTable> read_world_table(const std::string& json) try {
   const auto document = Json::parse(json);
-  return WorldTable{.next = document.at("next").get<std::vector<std::vector<int>>>(),
-                    .is_end = document.at("end").get<std::vector<bool>>()};
+  auto moves = read_moves(document.at("next"));
+  if (!moves) return std::nullopt;
+  return WorldTable{.next = std::move(*moves), .is_end = document.at("end").get<std::vector<bool>>()};
 } catch (const Json::exception&) {
   return std::nullopt;
 }

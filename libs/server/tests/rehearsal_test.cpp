@@ -151,6 +151,12 @@ TEST(WorldTable, FindsAShortestPath) {
   EXPECT_FALSE(table->shortest_path(-1).has_value());
   EXPECT_FALSE(read_world_table("{}").has_value());
   EXPECT_FALSE(read_world_table("nonsense").has_value());
+  for (const auto* next : {"1", "[1]", "[{}]"}) {
+    EXPECT_FALSE(read_world_table(R"({"end":[true],"next":)" + std::string{next} + "}").has_value()) << next;
+  }
+  for (const auto* number : {"1e17", "-1e17", "1.5", "4294967296", "18446744073709551615", "\"1\"", "null"}) {
+    EXPECT_FALSE(read_world_table(R"({"end":[true],"next":[[)" + std::string{number} + "]]}").has_value()) << number;
+  }
 }
 
 TEST(Latencies, AreObservedValues) {
