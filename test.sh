@@ -179,7 +179,7 @@ run_part() {
     # The corpora are replayed by the fuzz targets themselves.
     fuzz) part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz ;;
     coverage)
-      part "coverage: build" configure_and_build fuzz-coverage -- kith_fuzzers &&
+      part "coverage: build" configure_and_build fuzz -- kith_fuzzers &&
         part "coverage" tests/fuzz/run.sh --coverage
       ;;
     slow)

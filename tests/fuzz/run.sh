@@ -27,8 +27,7 @@ smallest set that reaches as many edges as all inputs known, those of BUILD
 included.
 
 --coverage prints how many lines of the parsers, the record codec and the
-journal these inputs reach, per target and in all. It needs
-build/fuzz-coverage (cmake --preset fuzz-coverage; cmake --build --preset fuzz-coverage).
+journal these inputs reach, per target and in all.
 
 BUILD is build/fuzz (make it with: cmake --preset fuzz; cmake --build --preset fuzz).
 TEXT
@@ -36,7 +35,7 @@ TEXT
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-runs=10000000 seconds=720 jobs=1 timeout=5 build=$root/build/fuzz coverage_build=$root/build/fuzz-coverage mode=fuzz
+runs=10000000 seconds=720 jobs=1 timeout=5 build=$root/build/fuzz mode=fuzz
 while (($#)); do
   case $1 in
     -n) runs=$2; shift 2 ;;
@@ -54,15 +53,13 @@ done
 mkdir -p "$build"/fuzz/{logs,findings}
 targets=("$@")
 if ((${#targets[@]} == 0)); then
-  options=$build/fuzz
-  if [[ $mode == coverage ]]; then options=$coverage_build/fuzz; fi
-  for file in "$options"/*.options; do targets+=("$(basename "$file" .options)"); done
+  for file in "$build"/fuzz/*.options; do targets+=("$(basename "$file" .options)"); done
 fi
 export ASAN_OPTIONS=quarantine_size_mb=32:detect_stack_use_after_return=0:${ASAN_OPTIONS:-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
 
-flags_of() {  # TARGET [BUILD]: what is said of it in tests/fuzz/CMakeLists.txt
-  sed 's/\(^\| \)\([a-z_]*=\)/\1-\2/g' "${2:-$build}/fuzz/$1.options"
+flags_of() {  # TARGET: what is said of it in tests/fuzz/CMakeLists.txt
+  sed 's/\(^\| \)\([a-z_]*=\)/\1-\2/g' "$build/fuzz/$1.options"
 }
 
 figure() {  # LOG NAME: of the statistics at the end
@@ -132,7 +129,7 @@ minimize() {  # TARGET
   rm -rf "$smallest"
 }
 
-# Which lines count, by group; patterns of awk.
+# Which lines count, by group; patterns of awk. tests/fuzz/CMakeLists.txt has the layers.
 groups='
 TOML             libs/toml/src/
 tables           libs/table/src/csv_re
@@ -175,9 +172,9 @@ coverage() {
   local folder name program flags programs=()
   folder=$(mktemp -d)
   for name in "${targets[@]}"; do
-    program=$coverage_build/bin/fuzz_$name
+    program=$build/bin/fuzz_$name
     mkdir -p "$build/fuzz/corpus/$name"
-    read -ra flags < <(flags_of "$name" "$coverage_build")
+    read -ra flags < <(flags_of "$name")
     LLVM_PROFILE_FILE=$folder/$name.raw "$program" "${flags[@]}" -runs=0 "$here/corpus/$name" \
       "$build/fuzz/corpus/$name" >/dev/null 2>&1 || { echo "$name fails on its corpus" >&2; return 1; }
     llvm-profdata merge -sparse "$folder/$name.raw" -o "$folder/$name.profile" || return 1
