@@ -4,7 +4,8 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
-# In minutes of two cores, the build included; a part that takes longer is stopped.
+# In minutes of two cores; a part that takes longer is stopped. What it builds first comes on top: minutes where the
+# night before has built it, most of an hour for all parts together where nobody has.
 night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
 declare -A budget=([release]=14 [ratios]=3 [headers]=4 [asan]=14 [tsan]=6 [python]=6 [lesson]=12 [fuzz]=10 [coverage]=4
   [slow]=22 [tidy]=6)
@@ -29,8 +30,9 @@ usage: ./test.sh             what has to pass before anything is merged:
                                tidy     clang-tidy
 
 Every form ends with a table of how long each part took. Parts of the night have
-budgets, and enter what they did into docs/nightly.md. Missing Debian packages
-are installed first, as ./run.sh does. To run some tests again:
+budgets for all but what they build, and enter what they did into
+docs/nightly.md. Missing Debian packages are installed first, as ./run.sh does.
+To run some tests again:
 ctest --preset release -R NAME
 TEXT
 }
@@ -53,7 +55,7 @@ for argument in "$@"; do
   esac
 done
 ((${#chosen[@]})) || chosen=("${night[@]}")
-budget[fuzz]=$((minutes + 5))
+budget[fuzz]=$((minutes + 2))
 
 packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
 if [[ $mode == nightly ]]; then
@@ -64,7 +66,7 @@ ensure_packages "${packages[@]}"
 
 jobs=$(nproc)
 table='' failed=0
-deadline='' log=''  # of a part of the night
+deadline='' log='' building=0  # of a part of the night
 part() {  # NAME COMMAND...: a part that fails does not keep the others from running
   local name=$1 start=$SECONDS outcome=''
   shift
@@ -77,6 +79,16 @@ part() {  # NAME COMMAND...: a part that fails does not keep the others from run
   [[ -z $outcome ]] || failed=$((failed + 1))
   table+=$(printf '%6d min %02d s  %s' $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) "$name$outcome")$'\n'
   [[ -z $outcome ]]
+}
+build_minutes=40
+build() {  # NAME ARGUMENT...: of configure_and_build; the deadline moves on meanwhile
+  local end=$deadline start=$SECONDS status
+  [[ -z $end ]] || deadline=$((SECONDS + 60 * build_minutes))
+  part "$1: build" configure_and_build "${@:2}"
+  status=$?
+  building=$((building + SECONDS - start))
+  [[ -z $end ]] || deadline=$((end + SECONDS - start))
+  return "$status"
 }
 in_time() {  # COMMAND...: 124 if it had to be stopped at the deadline, with all that it started
   local running status
@@ -116,11 +128,11 @@ layers=("${layers[@]#libs/}")
 layers=("${layers[@]%/tests}")
 
 release() {
-  part "release: build" configure_and_build release -DKITH_BUILD_TESTS=ON "$@" -- all &&
+  build release release -DKITH_BUILD_TESTS=ON "$@" -- all &&
     part "release: tests" run_tests release
 }
 asan() {  # LAYER...
-  part "ASan: build" configure_and_build asan -- $(tests_of "$@") &&
+  build ASan asan -- $(tests_of "$@") &&
     part "ASan: tests" run_tests asan -L "$(labels_of "$@")"
 }
 slow_tests() {
@@ -140,9 +152,10 @@ fuzz() {
     die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
 }
 
+clock() { printf '%d:%02d' $(($1 / 60)) $(($1 % 60)); }  # SECONDS
 nightly() {  # PART: what it did is a line of $results
   local start=$SECONDS failed_before=$failed outcome=passed
-  log=$night_folder/$1.log deadline=$((SECONDS + 60 * ${budget[$1]}))
+  log=$night_folder/$1.log building=0 deadline=$((SECONDS + 60 * ${budget[$1]}))
   : >"$log"
   run_part "$1"
   if ((SECONDS >= deadline)); then
@@ -151,42 +164,42 @@ nightly() {  # PART: what it did is a line of $results
     outcome=failed
   fi
   deadline=''
-  printf '%s\t%d\t%d:%02d\t%s\n' "$1" "${budget[$1]}" $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) \
-    "$outcome" >>"$results"
+  printf '%s\t%d\t%s\t%s\t%s\n' "$1" "${budget[$1]}" "$(clock $((SECONDS - start - building)))" \
+    "$(clock "$building")" "$outcome" >>"$results"
 }
 run_part() {
   case $1 in
     release) release -DKITH_BUILD_BENCHMARKS=ON ;;
     ratios)
-      part "ratios: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_BUILD_BENCHMARKS=ON -- all &&
+      build ratios release -DKITH_BUILD_TESTS=ON -DKITH_BUILD_BENCHMARKS=ON -- all &&
         part "ratios" tests/rivals/ratios.py build/release/bin/kith_rivals_bench build/release/bin/kith
       ;;
     headers) part "headers alone" configure_and_build release -- all_verify_interface_header_sets ;;
     asan)
       asan "${layers[@]}" &&
-        part "ASan: build of the module" configure_and_build asan -DKITH_PYTHON=ON \
+        build "ASan, module" asan -DKITH_PYTHON=ON \
           -DPython3_EXECUTABLE=/usr/bin/python3 -- kith_python &&
         part "ASan: tests of the module" run_tests asan -L python
       ;;
     tsan)
-      part "TSan: build" configure_and_build tsan -- $(tests_of "${threaded[@]}") && part "TSan: tests" run_tests tsan
+      build TSan tsan -- $(tests_of "${threaded[@]}") && part "TSan: tests" run_tests tsan
       ;;
     python)
-      part "Python: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_PYTHON=ON \
+      build Python release -DKITH_BUILD_TESTS=ON -DKITH_PYTHON=ON \
         -DPython3_EXECUTABLE=/usr/bin/python3 -- kith kith_python && part "Python: tests" run_tests release -L python
       configure_and_build release -DKITH_PYTHON=OFF -- kith  # ./test.sh by day has no module
       ;;
     # The corpora are replayed by the fuzz targets themselves.
-    fuzz) part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz ;;
+    fuzz) build fuzzing fuzz -- kith_fuzzers && part "fuzzing" fuzz ;;
     coverage)
-      part "coverage: build" configure_and_build fuzz -- kith_fuzzers &&
+      build coverage fuzz -- kith_fuzzers &&
         part "coverage" tests/fuzz/run.sh --coverage
       ;;
     slow)
-      part "slow tests: build" configure_and_build release -DKITH_BUILD_TESTS=ON -- all && part "slow tests" slow_tests
+      build "slow tests" release -DKITH_BUILD_TESTS=ON -- all && part "slow tests" slow_tests
       ;;
     lesson)
-      part "lesson files: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_LESSON=ON -- kith kith_web_packages &&
+      build "lesson files" release -DKITH_BUILD_TESTS=ON -DKITH_LESSON=ON -- kith kith_web_packages &&
         part "lesson files: tests" run_tests release -R '^web\.Lesson(File|Doors|Firefox|Sessions)$'
       ;;
     tidy) part "clang-tidy" configure_and_build tidy -- all ;;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Enters what a night did into docs/nightly.md, whose tables keep what all nights did together.
 
-usage: nightly.py RESULTS COMMIT [PAGE]   RESULTS has a line per part: name, budget, minutes and outcome, with tabs
-                                          between them; the output of the part is beside it, in NAME.log
+usage: nightly.py RESULTS COMMIT [PAGE]   RESULTS has a line per part: name, budget, minutes, minutes of building and
+                                          outcome, with tabs between them; its output is beside it, in NAME.log
        nightly.py --nights PART [PAGE]    how often the part ran
 """
 import pathlib
@@ -67,10 +67,10 @@ def table(head, rows):
 def enter(text, results, commit, log_of):
     """The page after one more night."""
     parts, totals = rows_under(text, "Parts"), rows_under(text, "Counts")
-    for part, budget, minutes, outcome in results:
+    for part, budget, minutes, building, outcome in results:
         log = log_of(part)
-        nights = int(parts[part][5]) + 1
-        parts[part] = [budget, minutes, outcome, tests(log), commit, str(nights)]
+        nights = int(parts[part][-1]) + 1
+        parts[part] = [budget, minutes, building, outcome, tests(log), commit, str(nights)]
         for what, count in counts(part, log).items():
             before = number(totals[what][0]) if what in totals else 0
             goal = totals[what][1] if what in totals else spaced(GOAL_OF_FUZZING)
@@ -78,7 +78,7 @@ def enter(text, results, commit, log_of):
         if part == "coverage" and covered(log):
             totals["lines of the parsers and the journal, %"][0] = covered(log)
     head = text.split("## Parts\n", 1)[0]
-    columns = ("part", "budget, min", "last took", "outcome", "tests passed", "commit", "runs")
+    columns = ("part", "budget, min", "last took", "and to build", "outcome", "tests passed", "commit", "runs")
     return head + f"## Parts\n\n{table(columns, parts)}\n## Counts\n\n{table(('what', 'so far', 'goal'), totals)}"
 
 
@@ -89,7 +89,7 @@ def main():
     page = pathlib.Path(arguments[2]) if len(arguments) == 3 else PAGE
     text = page.read_text()
     if arguments[0] == "--nights":
-        print(rows_under(text, "Parts")[arguments[1]][5])
+        print(rows_under(text, "Parts")[arguments[1]][-1])
         return
     results = pathlib.Path(arguments[0])
     rows = [line.split("\t") for line in results.read_text().splitlines()]

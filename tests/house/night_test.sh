@@ -8,7 +8,7 @@ fail() { echo "$*"; exit 1; }
 
 page=$folder/nightly.md
 cp docs/nightly.md "$page"
-printf 'fuzz\t10\t9:30\tpassed\nslow\t22\t22:00\tout of time\n' >"$folder/results.tsv"
+printf 'fuzz\t10\t9:30\t1:02\tpassed\nslow\t22\t22:00\t0:01\tout of time\n' >"$folder/results.tsv"
 printf 'csv             1200 executions     100/s  past parser 50 %%\n' >"$folder/fuzz.log"
 printf '%s\n' 'kill       first            7       5        4        1          0        0      0' \
   'timer      first            3       2        2        0          0        0      0' \
@@ -24,7 +24,7 @@ grown=(2400 14 16 2)
 for i in "${!grown[@]}"; do
   ((after[i] - before[i] == grown[i])) || fail "from ${before[i]} to ${after[i]}, not by ${grown[i]}"
 done
-grep -q '^| slow | 22 | 22:00 | out of time | - | second |' "$page" || fail "the last night of a part is not on the page"
+grep -q '^| slow | 22 | 22:00 | 0:01 | out of time | - | second |' "$page" || fail "the last night of a part is not on the page"
 
 for target in $(sed -n 's/^kith_fuzz_target(\([a-z_0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt); do
   grep -q "^| executions of $target |" docs/nightly.md || fail "docs/nightly.md does not count executions of $target"
@@ -44,3 +44,12 @@ for _ in {1..100}; do alive || break; sleep 0.1; done
 status=0 deadline=$((SECONDS + 600))
 in_time sh -c 'exit 3' || status=$?
 ((status == 3)) || fail "a part that fails with 3 ends with $status"
+
+# shellcheck disable=SC2034  # read by build
+build_minutes=1 building=5 deadline=$((SECONDS + 7))
+eval "$(sed -n '/^build() {/,/^}/p' test.sh)"
+part() { SECONDS=$((SECONDS + 100)); return 4; }
+status=0
+build any preset || status=$?
+((status == 4)) || fail "a build that fails with 4 ends with $status"
+((building >= 105 && deadline - SECONDS >= 5)) || fail "a build takes from the time of its part: $((deadline - SECONDS)) s"
