@@ -40,6 +40,12 @@ inline std::vector<std::string> built_in_names() {
   for (const auto& built_in : built_in_domains()) names.emplace_back(built_in.name);
   return names;
 }
+/// Those that are not large.
+inline std::vector<std::string> small_domain_names() {
+  auto names = built_in_names();
+  std::erase_if(names, [](const auto& name) { return std::ranges::find(kLargeDomains, name) != kLargeDomains.end(); });
+  return names;
+}
 /// A name as tests may have it.
 inline std::string test_name(std::string name) {
   std::erase(name, '-');
