@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
 # In minutes of two cores; a part that takes longer is stopped. What it builds first comes on top: minutes where the
-# night before has built it, most of an hour for all parts together where nobody has.
+# night before has built it, more than an hour for all parts together where nobody has.
 night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
 declare -A budget=([release]=16 [ratios]=3 [headers]=10 [asan]=24 [tsan]=5 [python]=6 [lesson]=12 [fuzz]=7 [coverage]=4
   [slow]=22 [tidy]=6)
