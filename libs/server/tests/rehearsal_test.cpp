@@ -140,6 +140,10 @@ TEST(BotMind, DoesNothingForViewsThatItDoesNotUnderstand) {
   EXPECT_EQ(screened->body["test"], 1);
   EXPECT_EQ(screened->world, "abc-0");
   EXPECT_EQ(screened->start, 7);
+  const auto odd = act_for({{"stage", "screening"}, {"predict", {{"index", 1e17}, {"world", "w"}, {"start", 1.5}}}});
+  ASSERT_TRUE(odd);
+  EXPECT_EQ(odd->body["test"], 0);
+  EXPECT_EQ(odd->start, -1);
 }
 
 TEST(WorldTable, FindsAShortestPath) {
