@@ -149,7 +149,7 @@ fuzz() {
   say
   say "== fuzzing with build/fuzz for $minutes minutes"
   tests/fuzz/run.sh -s $((60 * minutes)) -j "$jobs" >&2 ||
-    die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
+    die "fuzzing found something: see build/fuzz/fuzz/findings and build/fuzz/fuzz/logs"
 }
 
 clock() { printf '%d:%02d' $(($1 / 60)) $(($1 % 60)); }  # SECONDS

@@ -78,7 +78,7 @@ def enter(text, results, commit, log_of):
         if part == "coverage" and covered(log):
             totals["lines of the parsers and the journal, %"][0] = covered(log)
     head = text.split("## Parts\n", 1)[0]
-    columns = ("part", "budget, min", "last took", "and to build", "outcome", "tests passed", "commit", "runs")
+    columns = ("part", "budget, min", "last took", "building", "outcome", "tests passed", "commit", "runs")
     return head + f"## Parts\n\n{table(columns, parts)}\n## Counts\n\n{table(('what', 'so far', 'goal'), totals)}"
 
 
