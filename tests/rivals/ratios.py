@@ -3,7 +3,8 @@
 
 usage: ratios.py RIVALS_BENCH KITH [--update]
 
-Exits with 1 if something takes more than 1.25 times as long as it did; --update stores what is measured now.
+Exits with 1 if something takes more than 1.25 times as long as it did on a machine with the same vectors; --update
+stores what is measured now.
 """
 import json
 import os
@@ -58,12 +59,18 @@ def measure(bench, kith):
     return ratios
 
 
+def vectors():
+    """kith has loops for either kind of vectors (decision 11), the plain implementations have not."""
+    return "avx512" if " avx512vl " in pathlib.Path("/proc/cpuinfo").read_text() else "avx2"
+
+
 def main(bench, kith, *options):
     ratios = {name: float(f"{ratio:.3g}") for name, ratio in measure(bench, kith).items()}
+    known = json.loads(STORED.read_text())
     if options == ("--update",):
-        STORED.write_text(json.dumps(ratios, indent=2) + "\n")
+        STORED.write_text(json.dumps(known | {vectors(): ratios}, indent=2) + "\n")
         return 0
-    stored = json.loads(STORED.read_text())
+    stored = known[vectors()]
     for name, ratio in ratios.items():
         print(f"{name:10} {ratio:10g}  stored {stored[name]:10g}  {ratio / stored[name]:.2f}")
     return int(any(ratio > SLOWER * stored[name] for name, ratio in ratios.items()))
