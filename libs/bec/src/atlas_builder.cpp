@@ -72,8 +72,9 @@ void AtlasBuilder::plan() {
     for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
       Atlas::Demo demo;
       demo.id = {m, s};
-      demo.counts = plan->counts[s.value()];
+      demo.complexity = domain.complexity(demo.id);
       atlas_.demos_.push_back(demo);
+      atlas_.counts_.push_back(plan->counts[s.value()]);
     }
     const auto order = successors_first(mdp, *plan);
     describe_paths(m, *plan, order);
@@ -95,7 +96,7 @@ void AtlasBuilder::order_features() {
     bool is_everywhere = true;
     for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) is_everywhere &= domain.mdp(m).has_feature(k);
     std::int64_t met = 0;
-    for (const std::size_t i : candidates()) met += atlas_.demos_[i].counts[k];
+    for (const std::size_t i : candidates()) met += atlas_.counts_[i][k];
     keys.push_back({is_everywhere ? 1 : 0, weights[k], -met});
   }
   auto& order = atlas_.feature_order_;

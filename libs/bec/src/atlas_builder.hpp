@@ -36,7 +36,7 @@ class AtlasBuilder {
   [[nodiscard]] bool counts(const HalfSpace& half_space) const;
   void reduce_one_step();
   void find_hulls(MdpIndex m);
-  void intern_hull(const Atlas::Demo& here, const CoverageSets& coverage);
+  void intern_hull(StartIndex here, const CoverageSets& coverage);
   void number_constraints();
   void make_one_step_sets();
   void compare_whole_paths();

@@ -10,16 +10,17 @@ void AtlasBuilder::find_hulls(MdpIndex m) {
   const auto coverage = coverage_sets(mdp);
   for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
     tables_->coverage_.max = std::max(tables_->coverage_.max, coverage.vertices(s).size());
-    intern_hull(demo(m, s), coverage);
+    intern_hull(atlas_.index({m, s}), coverage);
   }
   tables_->coverage_.vertices += coverage.num_vertices();
   tables_->coverage_.mean =
       static_cast<double>(tables_->coverage_.vertices) / static_cast<double>(atlas_.demos_.size());
 }
 
-void AtlasBuilder::intern_hull(const Atlas::Demo& here, const CoverageSets& coverage) {
+void AtlasBuilder::intern_hull(StartIndex here, const CoverageSets& coverage) {
+  const auto& counts = atlas_.feature_counts(here);
   Hull hull;
-  for (const auto& vertex : coverage.vertices(here.id.start)) hull.losses.push_back(here.counts - vertex);
+  for (const auto& vertex : coverage.vertices(atlas_.id(here).start)) hull.losses.push_back(counts - vertex);
   const auto& weights = atlas_.domain_.weights().integer;
   std::sort(hull.losses.begin(), hull.losses.end(), [&](const IntegerVector& a, const IntegerVector& b) {
     const auto loss_a = dot(weights, a);
@@ -35,7 +36,7 @@ void AtlasBuilder::intern_hull(const Atlas::Demo& here, const CoverageSets& cove
     hull.finite_region = *region;
     tables_->hulls_.push_back(std::move(hull));
   }
-  tables_->starts_.push_back({here.counts, HullIndex{place->second}});
+  tables_->starts_.push_back({counts, HullIndex{place->second}});
 }
 
 void AtlasBuilder::make_facets() {

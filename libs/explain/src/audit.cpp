@@ -31,7 +31,7 @@ class Simplest {
   explicit Simplest(const Atlas& atlas) : atlas_{atlas} {}
 
   void offer(StartIndex demo, bool is_new, std::size_t besides) {
-    const Rank rank{!is_new, besides, atlas_.domain().complexity(atlas_.id(demo))};
+    const Rank rank{!is_new, besides, atlas_.complexity(demo)};
     if (best_ && rank > rank_) return;
     if (best_ && rank == rank_) {
       // Paths are long to find.

@@ -168,7 +168,7 @@ std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace
   for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
-    const int complexity = atlas.domain().complexity(atlas.id(demo));
+    const int complexity = atlas.complexity(demo);
     const std::tuple candidate{complexity, atlas.trajectory(demo).actions.size(), demo};
     if (!best || candidate < *best) best = candidate;
   }

@@ -119,7 +119,7 @@ StartIndex find_sandbox(const Atlas& atlas) {
     const StartIndex demo{i};
     const bool tests = atlas.is_candidate(demo) && !atlas.tested_constraints(demo).without(atlas.prior()).empty();
     const auto steps = std::min(kRoom, atlas.trajectory(demo).actions.size());
-    const std::tuple rank{steps < 2, tests, atlas.domain().complexity(atlas.id(demo)), kRoom - steps};
+    const std::tuple rank{steps < 2, tests, atlas.complexity(demo), kRoom - steps};
     if (!best || rank < best_rank) {
       best = demo;
       best_rank = rank;

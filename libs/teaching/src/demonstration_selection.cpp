@@ -44,7 +44,7 @@ class Effects {
     std::size_t slot = hash_words({row, words_}) & mask;
     while (slots_[slot] != kEmpty) {
       const Entry& known = entries_[slots_[slot]];
-      if (std::equal(row, row + words_, known.row)) return known.effect;
+      if (is_same(row, known.row)) return known.effect;
       slot = (slot + 1) & mask;
     }
     slots_[slot] = static_cast<std::uint32_t>(entries_.size());
@@ -56,6 +56,13 @@ class Effects {
     const std::uint64_t* row;
     RegionEffect effect;
   };
+  // Few words: a call would take longer than to compare them.
+  [[nodiscard]] bool is_same(const std::uint64_t* a, const std::uint64_t* b) const {
+    std::uint64_t differs = 0;
+    for (std::size_t i = 0; i < words_; ++i) differs |= a[i] ^ b[i];
+    return differs == 0;
+  }
+
   static constexpr std::uint32_t kEmpty = 0xFFFFFFFF;
   std::size_t words_ = 0;
   std::vector<Entry> entries_;

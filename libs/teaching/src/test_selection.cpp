@@ -37,7 +37,8 @@ class TestSelection {
         unit_{unit},
         visited_{visited},
         random_{random},
-        is_shown_(atlas.num_states(), false) {
+        is_shown_(atlas.num_states(), false),
+        num_tested_(atlas.num_states(), 0) {
     for (const auto demo : visited.in_order()) is_shown_[atlas.trajectory_class(demo)] = true;
   }
 
@@ -89,32 +90,33 @@ class TestSelection {
   [[nodiscard]] bool is_in_component(StartIndex demo) const { return component_.uses_mdp[atlas_.id(demo).mdp.value()]; }
 
   [[nodiscard]] std::vector<StartIndex> usable(ConstraintIndex c) const {
-    std::vector<StartIndex> all;
-    std::vector<StartIndex> fresh;
-    for (const auto demo : atlas_.tests_for(c)) {
-      if (!is_in_component(demo)) continue;
-      all.push_back(demo);
-      if (!is_shown_[atlas_.trajectory_class(demo)]) fresh.push_back(demo);
-    }
-    return fresh.empty() ? all : fresh;
+    std::vector<StartIndex> found;
+    const auto add = [&](bool also_shown) {
+      for (const auto demo : atlas_.tests_for(c)) {
+        if (!also_shown && is_shown_[atlas_.trajectory_class(demo)]) continue;
+        if (is_in_component(demo)) found.push_back(demo);
+      }
+    };
+    add(false);
+    if (found.empty()) add(true);
+    return found;
   }
 
   // The start that tests most of the open constraints, if it tests at least two; they are closed.
   std::optional<Test> covering_several(std::vector<Candidates>& open) {
-    std::vector<StartIndex> all;
-    for (const auto& candidates : open) all.insert(all.end(), candidates.demos.begin(), candidates.demos.end());
-    std::sort(all.begin(), all.end());
-    std::size_t most = 1;
+    std::uint32_t most = 2;
+    for (const auto& candidates : open) {
+      for (const auto demo : candidates.demos) most = std::max(most, ++num_tested_[demo.value()]);
+    }
     std::vector<StartIndex> best;
-    for (auto run = all.begin(); run != all.end();) {
-      const auto end = std::find_if(run, all.end(), [&](StartIndex d) { return d != *run; });
-      const auto count = static_cast<std::size_t>(end - run);
-      if (count > most) best.clear();
-      if (count >= std::max<std::size_t>(most, 2)) best.push_back(*run);
-      most = std::max(most, count);
-      run = end;
+    for (const auto& candidates : open) {
+      for (const auto demo : candidates.demos) {
+        if (num_tested_[demo.value()] == most) best.push_back(demo);
+        num_tested_[demo.value()] = 0;
+      }
     }
     if (best.empty()) return std::nullopt;
+    std::sort(best.begin(), best.end());
     Test test;
     test.demo = most_complex(best);
     std::erase_if(open, [&](const Candidates& candidates) {
@@ -145,7 +147,7 @@ class TestSelection {
     std::optional<VisualKey> best_key;
     for (const auto demo : demos) {
       const auto id = atlas_.id(demo);
-      VisualKey key{-atlas_.domain().complexity(id), 0, 0};
+      VisualKey key{-atlas_.complexity(demo), 0, 0};
       if (best_key && key.complexity > best_key->complexity) continue;
       for (const auto& shown : unit_) key.dissimilarity -= atlas_.domain().dissimilarity(id, atlas_.id(shown.demo));
       if (best_key && key > *best_key) continue;
@@ -162,7 +164,8 @@ class TestSelection {
   const std::vector<Demonstration>& unit_;
   VisitedStarts& visited_;
   const RandomStream& random_;
-  std::vector<bool> is_shown_;  // by trajectory class, of which there are no more than demonstrations
+  std::vector<bool> is_shown_;             // by trajectory class, of which there are no more than demonstrations
+  std::vector<std::uint32_t> num_tested_;  // per start, of the open constraints; 0 but in covering_several()
 };
 
 }  // namespace

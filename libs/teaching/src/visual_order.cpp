@@ -25,7 +25,7 @@ StartIndex simplest_of(const Atlas& atlas, std::span<const StartClassIndex> clas
   for (const auto c : classes) {
     for (const auto demo : atlas.members(c)) {
       if (visited.contains(demo)) continue;
-      VisualKey key{atlas.domain().complexity(atlas.id(demo)), 0, 0};
+      VisualKey key{atlas.complexity(demo), 0, 0};
       if (best_key && key.complexity > best_key->complexity) continue;
       key.dissimilarity = dissimilarity(atlas, demo, unit);
       if (best_key && key > *best_key) continue;

@@ -86,7 +86,7 @@ class Atlas {
   /// The number of actions of the cycle that the start state lies on, where the path never ends; 0: on none.
   [[nodiscard]] std::size_t cycle_length(StartIndex demo) const { return demos_[demo.value()].cycle_length; }
   /// mu of the robot's path, or its expectation, shape [d].
-  [[nodiscard]] const IntegerVector& feature_counts(StartIndex demo) const { return demos_[demo.value()].counts; }
+  [[nodiscard]] const IntegerVector& feature_counts(StartIndex demo) const { return counts_[demo.value()]; }
   /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].
   /// @param choice  position in Mdp::choices() of the start.
   /// @throws std::invalid_argument if there is no such choice.
@@ -104,6 +104,8 @@ class Atlas {
   }
   /// Equal for demonstrations that look the same: same pictures, same actions.
   [[nodiscard]] std::uint32_t trajectory_class(StartIndex demo) const { return demos_[demo.value()].trajectory_class; }
+  /// Domain::complexity() of the start picture.
+  [[nodiscard]] int complexity(StartIndex demo) const { return demos_[demo.value()].complexity; }
   /// Mean dissimilarity of the start picture to all others of the same MDP, rounded.
   [[nodiscard]] int mean_dissimilarity(StartIndex demo) const { return demos_[demo.value()].mean_dissimilarity; }
 
@@ -158,13 +160,14 @@ class Atlas {
   static constexpr std::uint32_t kTerminal = 0xFFFFFFFF;
   static constexpr StartClassIndex kNoClass{0xFFFFFFFF};
 
+  // What selections look up again and again: as many of them in a cache line as possible.
   struct Demo {
     StartId id;
-    IntegerVector counts;
     bool unique = true;
     bool tie = false;
     std::uint32_t one_step = 0;  // row of one_step_sets_
     std::uint32_t trajectory_class = 0;
+    int complexity = 0;
     int mean_dissimilarity = 0;
     StartClassIndex start_class = kNoClass;
     std::uint32_t next = kTerminal;  // demo index of the next state on the path
@@ -181,6 +184,7 @@ class Atlas {
   std::vector<std::size_t> feature_order_;
   std::vector<std::size_t> first_demo_;
   std::vector<Demo> demos_;
+  std::vector<IntegerVector> counts_;                          // per demonstration
   std::vector<std::vector<std::uint32_t>> canonical_choices_;  // per MDP, shape [num_states]
   std::vector<std::vector<std::uint32_t>> shown_next_;         // the same: the state after s on the shown path
   std::vector<ConstraintSet> one_step_sets_;
