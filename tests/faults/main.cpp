@@ -62,6 +62,10 @@ std::vector<Case> draw_cases(const Options& options, Sampler& sampler) {
   std::size_t total = 0;
   for (const auto& [family, number] : options.cases) {
     families.push_back(sampler.draw(family, number));
+    if (families.back().empty()) {
+      throw Error{ErrorKind::kUsage,
+                  "no case of '" + family + "' can be drawn: does " + options.tools.shim.string() + " load?"};
+    }
     total += families.back().size();
   }
   std::vector<Case> cases;
