@@ -11,24 +11,26 @@ export const commandLine = (words) => ['kith', ...words.map(quoted)].join(' ');
 // A study into the folder of its run; settings are KEY=VALUE.
 export const study = (file, ...settings) => ['study', file, '-o', 'DIR', ...settings.flatMap((one) => ['--set', one])];
 
+const digest = (data) => createHash('sha256').update(data).digest('hex').slice(0, 16);
+const otherRun = (word) => /^DIR\((.*)\)$/.exec(word)?.[1];
+
 export class Runs {
   // `folder` keeps results; those of another program in it are not used.
   constructor(commands, kith, source, folder, say) {
-    const digest = createHash('sha256').update(readFileSync(kith)).digest('hex').slice(0, 16);
-    Object.assign(this, { commands, kith, source, say, folder: join(folder, digest), results: new Map(), tables: new Map() });
+    Object.assign(this, { commands, kith, source, say, folder: join(folder, digest(readFileSync(kith))), results: new Map(), tables: new Map() });
     mkdirSync(this.folder, { recursive: true });
   }
 
   // What a command printed.
   run(name) {
     if (this.results.has(name)) return this.results.get(name);
-    const file = join(this.folder, `${name}.out`);
+    const file = `${this.directory(name)}.out`;
     const args = this.commands[name].map((word) => {
       if (word === 'DIR') return this.directory(name);
-      const other = /^DIR\((.*)\)$/.exec(word);
-      if (!other) return word;
-      this.run(other[1]);
-      return this.directory(other[1]);
+      const other = otherRun(word);
+      if (other === undefined) return word;
+      this.run(other);
+      return this.directory(other);
     });
     let text;
     if (existsSync(file)) {
@@ -50,8 +52,14 @@ export class Runs {
     return commandLine(this.commands[name]);
   }
 
+  // Pages give other commands the same name.
   directory(name) {
-    return join(this.folder, name.replace(/ /g, '-'));
+    return join(this.folder, `${name.replace(/ /g, '-')}-${this.digestOf(name)}`);
+  }
+
+  digestOf(name) {
+    const words = this.commands[name].map((word) => (otherRun(word) === undefined ? word : this.digestOf(otherRun(word))));
+    return digest(JSON.stringify(words));
   }
 
   json(name) {

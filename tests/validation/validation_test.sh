@@ -39,4 +39,14 @@ if ! cmp -s "$page" "$folder/validation.md"; then
   diff "$page" "$folder/validation.md"
   failures=$((failures + 1))
 fi
+
+# Runs of the same name and other commands are other runs, and so are runs of them.
+"$node" --input-type=module -e "
+  import assert from 'node:assert/strict';
+  const { Runs } = await import('$here/runs.mjs');
+  const of = (seed) => new Runs({ a: ['study', seed], b: ['analyze', 'DIR(a)'] }, '$kith', '.', '$folder/names', () => {});
+  for (const name of ['a', 'b']) {
+    assert.equal(of('1').directory(name), of('1').directory(name));
+    assert.notEqual(of('1').directory(name), of('2').directory(name));
+  }" || failures=$((failures + 1))
 ((failures == 0))
