@@ -107,7 +107,8 @@ PublishedRun PublishedRun::open(const fs::path& folder) {
   const auto manifest = unsealed(run.manifest_);
   if (!manifest) {
     refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
-               "the manifest is damaged or was changed: it does not have the checksum at its end", kRunAgain);
+               "the manifest is damaged, was changed, or is of an older kith: it lacks the checksum at its end",
+               kRunAgain);
   }
   if (text_in(*manifest, "schema") != "kith.manifest/2") {
     refuse_run(ErrorKind::kInvalidInput, "E0605", folder / kManifestFile,

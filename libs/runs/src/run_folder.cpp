@@ -87,7 +87,7 @@ std::optional<std::string> run_digest(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / kManifestFile, ignored)) {
     refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
-               "the manifest is damaged or was changed: it does not have the checksum at its end",
+               "the manifest is damaged, was changed, or is of an older kith: it lacks the checksum at its end",
                "rerun the command that ran the study");
   }
   const auto identity = Journal::identify(folder / kJournalFile);
