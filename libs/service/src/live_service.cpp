@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kStrandThreads = 2;
 constexpr std::size_t kStrandCacheBytes = std::size_t{8} << 20;
 constexpr auto kTick = std::chrono::milliseconds{100};
+constexpr std::size_t kRoomsPerTick = 50;  // that facilitators are shown
 constexpr std::size_t kJoinCodeLength = 8;
 
 std::int64_t system_now_us() {
@@ -138,7 +139,11 @@ void LiveService::State::tick() {
         const auto found = rooms.find(number);
         if (found != rooms.end()) changed.push_back(found->second);
       }
-      is_new = std::exchange(has_news, false);
+      // The page of many rooms is large, and something happens in one of them all the time.
+      if (++ticks_since_shown > pictures.size() / kRoomsPerTick) {
+        is_new = std::exchange(has_news, false);
+        if (is_new) ticks_since_shown = 0;
+      }
     }
   }
   for (const auto& room : due) post(room->number(), [room](TeachingCache&) { room->wake(); });

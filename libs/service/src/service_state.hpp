@@ -104,6 +104,7 @@ struct LiveService::State final : HostedRoom::Host {
   std::map<std::int64_t, RoomPicture> pictures;
   std::set<std::int64_t> changed_rooms;  // whose picture is old
   bool has_news = false;                 // for facilitators
+  std::size_t ticks_since_shown = 0;     // news to them
   std::multiset<std::int64_t> selected;  // rooms that facilitators look at
   std::deque<LogEntry> log;
   std::map<std::int64_t, std::string> troubles;                 // by room

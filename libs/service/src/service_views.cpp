@@ -1,5 +1,9 @@
 // What facilitators and observers see.
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "service_state.hpp"
 
@@ -8,7 +12,26 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1000;
 
-Json or_null(const std::shared_ptr<const Json>& json) { return json ? *json : Json{}; }
+// A room's row, and for each of its seats what is not known to the room.
+struct Row {
+  struct Seat {
+    std::optional<double> latency_ms;
+    std::optional<std::string> link;
+  };
+  std::shared_ptr<const Json> row;
+  std::vector<Seat> seats;
+};
+
+Json filled(const Row& from) {
+  Json row = *from.row;
+  auto added = from.seats.begin();
+  for (auto& seat : row["seats"]) {
+    if (added->latency_ms) seat["latency_ms"] = *added->latency_ms;
+    if (added->link) seat["link"] = *added->link;
+    ++added;
+  }
+  return row;
+}
 
 }  // namespace
 
@@ -51,12 +74,15 @@ void LiveService::State::show_facilitators() {
 Json LiveService::State::facilitator_view(const Connection& connection) const {
   const bool is_facilitator = connection.identity.role == Role::kFacilitator;
   const auto counters = integrity();
-  const std::lock_guard lock{mutex};
   Json view{{"v", 1},
             {"role", name_of(connection.identity.role)},
             {"server_ms", now_us() / kMillisecond},
             {"study", live_study_json(*study)}};
 
+  // Everybody waits for the mutex: what takes time is done without it.
+  std::vector<Row> rows;
+  std::shared_ptr<const Json> detail;
+  std::unique_lock lock{mutex};
   if (is_facilitator) {
     const auto page = [&](const char* path, const std::string& token) {
       return token.empty() ? std::string{} : base_url + path + token;
@@ -67,40 +93,45 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
                      {"code", join_code}};
   }
 
-  view["rooms"] = Json::array();
   for (const auto& [number, picture] : pictures) {
-    auto row = or_null(is_facilitator ? picture.row : picture.observer_row);
-    if (row.is_null()) continue;
-    for (auto& seat : row["seats"]) {
-      const Place place{number, seat["seat"].get<std::int64_t>()};
+    const auto& row = is_facilitator ? picture.row : picture.observer_row;
+    if (!row || row->is_null()) continue;
+    auto& added = rows.emplace_back(Row{row, {}});
+    for (const auto& seat : row->at("seats")) {
+      auto& [latency_ms, link] = added.seats.emplace_back();
+      const Place place{number, seat.at("seat").get<std::int64_t>()};
       const auto contact = contacts.find(place);
       const auto person = contact == contacts.end() ? connections.end() : connections.find(contact->second.connection);
       if (person != connections.end() && person->second->round_trip)
-        seat["latency_ms"] = static_cast<double>(person->second->round_trip->count()) / 1000.0;
+        latency_ms = static_cast<double>(person->second->round_trip->count()) / 1000.0;
 
       // Who came from the waiting list still uses the link of their place there.
       auto token = is_facilitator ? tokens->known(place.first, place.second) : std::nullopt;
       if (const auto from = came_from.find(place); is_facilitator && !token && from != came_from.end()) {
         token = tokens->known(from->second.first, from->second.second);
       }
-      if (token) seat["link"] = base_url + "/j#t=" + *token;
+      if (token) link = base_url + "/j#t=" + *token;
     }
-    view["rooms"].push_back(std::move(row));
   }
 
   const auto selected_room = pictures.find(connection.selected);
   if (selected_room != pictures.end()) {
-    auto detail = or_null(is_facilitator ? selected_room->second.detail : selected_room->second.observer_detail);
-    if (!detail.is_null()) view["room"] = std::move(detail);
+    detail = is_facilitator ? selected_room->second.detail : selected_room->second.observer_detail;
   }
 
-  view["log"] = Json::array();
+  Json lines = Json::array();
   for (const auto& entry : log) {
     Json line{{"at_ms", entry.at_us / kMillisecond}, {"actor", entry.actor}, {"what", entry.what}};
     if (!entry.room.empty()) line["room"] = entry.room;
     if (is_facilitator && !entry.reason.empty()) line["reason"] = entry.reason;
-    view["log"].push_back(std::move(line));
+    lines.push_back(std::move(line));
   }
+  lock.unlock();
+
+  view["rooms"] = Json::array();
+  for (const auto& row : rows) view["rooms"].push_back(filled(row));
+  if (detail && !detail->is_null()) view["room"] = *detail;
+  view["log"] = std::move(lines);
   view["integrity"] = counters;
   return view;
 }

@@ -73,6 +73,27 @@ TEST(LiveService, ShowsFacilitatorsEverythingAndDoesWhatTheyAsk) {
   EXPECT_EQ(what, (std::vector<std::string>{"room-make", "joined", "message", "link-revoke"}));
 }
 
+TEST(LiveService, ShowsManyRoomsLessOftenAndTheLastNewsSoon) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", small_study()};
+  auto facilitator = stage.facilitator();
+  facilitator->ask(stage.service(), "room-make",
+                   {{"strategy", "common"}, {"seats", {"person", "N", "P"}}, {"count", 120}, {"reason", "many"}});
+  stage.show(*facilitator);
+  ASSERT_EQ(facilitator->view().at("rooms").size(), 120u) << facilitator->last_nak();
+
+  const auto before = facilitator->views().size();
+  for (int i = 1; i <= 12; ++i) {  // something new at every tick
+    stage.pass_ms(10);
+    facilitator->ask(stage.service(), "message", {{"room", "r1"}, {"text", "Hello"}, {"reason", std::to_string(i)}});
+  }
+  facilitator->read();
+  EXPECT_GE(facilitator->views().size() - before, 3u);
+  EXPECT_LE(facilitator->views().size() - before, 5u);
+  stage.show(*facilitator);
+  EXPECT_EQ(facilitator->view().at("log").back()["reason"], "12") << facilitator->last_nak();
+}
+
 TEST(LiveService, GivesANewLinkToASeatWhoseLinkIsUnknownAfterARestart) {
   const ScratchFolder scratch;
   Stage stage{scratch / "live", small_study()};
