@@ -140,7 +140,9 @@ void LiveService::State::tick() {
         if (found != rooms.end()) changed.push_back(found->second);
       }
       // The page of many rooms is large, and something happens in one of them all the time.
-      if (++ticks_since_shown > pictures.size() / kRoomsPerTick) {
+      const bool is_awaited = ticks_awaited > 0;
+      if (is_awaited) --ticks_awaited;
+      if (++ticks_since_shown > pictures.size() / kRoomsPerTick || is_awaited) {
         is_new = std::exchange(has_news, false);
         if (is_new) ticks_since_shown = 0;
       }

@@ -125,7 +125,7 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
       ++num_facilitators;
       selected.insert(0);
       for (const auto& [number, room] : rooms) changed_rooms.insert(number);
-      has_news = true;
+      await_news();
     }
     if (identity.role != Role::kNobody) connection->is_known = true;
   }
@@ -279,7 +279,7 @@ void LiveService::State::select_room(const std::shared_ptr<Connection>& connecti
     if (former != selected.end()) selected.erase(former);
     selected.insert(number);
     changed_rooms.insert(number);
-    has_news = true;
+    await_news();
   }
   reply({});
 }

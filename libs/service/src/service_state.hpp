@@ -105,6 +105,7 @@ struct LiveService::State final : HostedRoom::Host {
   std::set<std::int64_t> changed_rooms;  // whose picture is old
   bool has_news = false;                 // for facilitators
   std::size_t ticks_since_shown = 0;     // news to them
+  std::size_t ticks_awaited = 0;         // of those to come: a facilitator waits for what they asked for
   std::multiset<std::int64_t> selected;  // rooms that facilitators look at
   std::deque<LogEntry> log;
   std::map<std::int64_t, std::string> troubles;                 // by room
@@ -219,6 +220,12 @@ struct LiveService::State final : HostedRoom::Host {
   // service_views.cpp
   void take_picture(HostedRoom& hosted);
   void show_facilitators();
+  // Shows them at the next tick what there is, and at the one after it the pictures that are taken meanwhile. @pre the
+  // mutex is held.
+  void await_news() {
+    has_news = true;
+    ticks_awaited = 2;
+  }
   [[nodiscard]] Json facilitator_view(const Connection& connection) const;
   [[nodiscard]] Json integrity() const;
 

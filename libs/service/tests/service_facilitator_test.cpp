@@ -79,6 +79,7 @@ TEST(LiveService, ShowsManyRoomsLessOftenAndTheLastNewsSoon) {
   auto facilitator = stage.facilitator();
   facilitator->ask(stage.service(), "room-make",
                    {{"strategy", "common"}, {"seats", {"person", "N", "P"}}, {"count", 120}, {"reason", "many"}});
+  stage.show(*facilitator);  // what is new, and the pictures that are taken meanwhile
   stage.show(*facilitator);
   ASSERT_EQ(facilitator->view().at("rooms").size(), 120u) << facilitator->last_nak();
 
@@ -92,6 +93,14 @@ TEST(LiveService, ShowsManyRoomsLessOftenAndTheLastNewsSoon) {
   EXPECT_LE(facilitator->views().size() - before, 5u);
   stage.show(*facilitator);
   EXPECT_EQ(facilitator->view().at("log").back()["reason"], "12") << facilitator->last_nak();
+
+  // What a facilitator asks to see is there at once.
+  facilitator->ask(stage.service(), "room-select", {{"room", "r7"}});
+  stage.service().settle();
+  stage.pass_ms(10);
+  stage.pass_ms(10);
+  facilitator->read();
+  EXPECT_EQ(facilitator->view().at("room")["id"], "r7");
 }
 
 TEST(LiveService, GivesANewLinkToASeatWhoseLinkIsUnknownAfterARestart) {
