@@ -138,7 +138,7 @@ TEST(Malformed, RequestsLeaveTheServerAsItWas) { send_all(1000, 1, "", http_seed
 TEST(Malformed, FramesTooEarlyLeaveTheServerAsItWas) { send_all(200, 2, kBeforeFrames, frame_seeds()); }
 
 void send_frames(int count, unsigned seed) {
-  // One in twenty ends in the middle of a close; nobody needs two seconds here to finish it.
+  // Some end in the middle of a close; nobody needs two seconds here to finish it.
   Served served{{.limits = {.close_time = std::chrono::milliseconds{50}}}};
   std::mt19937 random{seed};
   for (int i = 0; i < count; ++i) {
