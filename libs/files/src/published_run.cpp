@@ -90,6 +90,12 @@ void refuse_run(ErrorKind kind, const std::string& id, const fs::path& file, con
   throw Error{kind, text, {diagnostic}};
 }
 
+void refuse_unsealed(const fs::path& folder) {
+  refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
+             "the manifest is damaged, was changed, or is of an older kith: it lacks the checksum at its end",
+             kRunAgain);
+}
+
 std::string sealed_manifest(std::string_view manifest) {
   auto document = Json::parse(manifest);
   document[kChecksum] = sha256(document.dump());
@@ -105,11 +111,7 @@ PublishedRun PublishedRun::open(const fs::path& folder) {
   run.folder_ = folder;
   run.manifest_ = read_file(folder / kManifestFile);
   const auto manifest = unsealed(run.manifest_);
-  if (!manifest) {
-    refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
-               "the manifest is damaged, was changed, or is of an older kith: it lacks the checksum at its end",
-               kRunAgain);
-  }
+  if (!manifest) refuse_unsealed(folder);
   if (text_in(*manifest, "schema") != "kith.manifest/2") {
     refuse_run(ErrorKind::kInvalidInput, "E0605", folder / kManifestFile,
                "this is not a manifest that this version of kith can read (kith.manifest/2)", kRunAgain);

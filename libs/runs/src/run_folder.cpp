@@ -85,11 +85,7 @@ WrittenTables write_tables(const fs::path& folder, const Study& study, const std
 std::optional<std::string> run_digest(const fs::path& folder) {
   if (auto digest = published_digest(folder)) return digest;
   std::error_code ignored;
-  if (fs::exists(folder / kManifestFile, ignored)) {
-    refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
-               "the manifest is damaged, was changed, or is of an older kith: it lacks the checksum at its end",
-               "rerun the command that ran the study");
-  }
+  if (fs::exists(folder / kManifestFile, ignored)) refuse_unsealed(folder);
   const auto identity = Journal::identify(folder / kJournalFile);
   return identity ? std::optional{identity->inputs.digest()} : std::nullopt;
 }

@@ -54,5 +54,7 @@ class PublishedRun {
 /// A complaint about a file or folder of a run. @throws kith::Error of that kind, with the diagnostic.
 [[noreturn]] void refuse_run(ErrorKind kind, const std::string& id, const std::filesystem::path& file,
                              const std::string& message, const Advice& advice);
+/// The same about a manifest in a folder that is not sealed. @throws kith::Error kMismatch E0605.
+[[noreturn]] void refuse_unsealed(const std::filesystem::path& folder);
 
 }  // namespace kith
