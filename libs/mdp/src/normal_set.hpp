@@ -21,29 +21,31 @@ inline double dot_of(const double* normal, std::span<const double> weights) {
 // width does not part them.
 class NormalSet {
  public:
-  NormalSet(std::size_t dimension, double quantum, std::size_t most) : d_{dimension}, quantum_{quantum} {
+  NormalSet(std::size_t dimension, double quantum, std::size_t most)
+      : d_{dimension}, quantum_{quantum}, per_quantum_{1.0 / quantum} {
     std::size_t size = 16;
     while (size < 2 * most) size *= 2;
     slots_.assign(size, kFree);
   }
 
-  void insert(const double* normal) {
+  // @returns whether it is a new one.
+  bool insert(const double* normal) {
     std::uint64_t hash = 0xCBF29CE484222325ull;
     for (std::size_t k = 0; k < d_; ++k) {
-      hash =
-          (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(normal[k] / quantum_))) * 0xFF51AFD7ED558CCDull;
+      hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(normal[k] * per_quantum_))) *
+             0xFF51AFD7ED558CCDull;
       hash ^= hash >> 32;
     }
     for (std::size_t at = hash & (slots_.size() - 1);; at = (at + 1) & (slots_.size() - 1)) {
       if (slots_[at] == kFree) {
         slots_[at] = static_cast<std::uint32_t>(normals_.size() / d_);
         for (std::size_t k = 0; k < d_; ++k) normals_.push_back(normal[k]);
-        return;
+        return true;
       }
       const double* const other = &normals_[slots_[at] * d_];
       bool is_equal = true;
       for (std::size_t k = 0; k < d_; ++k) is_equal = is_equal && std::abs(normal[k] - other[k]) <= quantum_;
-      if (is_equal) return;
+      if (is_equal) return false;
     }
   }
 
@@ -66,7 +68,7 @@ class NormalSet {
  private:
   static constexpr std::uint32_t kFree = 0xFFFFFFFFu;
   std::size_t d_;
-  double quantum_;
+  double quantum_, per_quantum_;
   std::vector<std::uint32_t> slots_;
   std::vector<double> normals_;
 };

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include "checks.hpp"
@@ -27,6 +26,7 @@ constexpr double kClear = 1e-6;
 // differ by less are one, because any clearance is far larger.
 constexpr double kSame = 1e-13;
 constexpr double kSameNormal = 1e-12;
+constexpr double kOfIntegers = 0.5;  // tells normals of integers apart
 
 }  // namespace
 
@@ -399,23 +399,32 @@ class PolicyLookup::Body {
         part.reach[k] = std::max(part.reach[k], std::abs(static_cast<double>(counts_[s.value()][k])));
       }
     }
-    std::unordered_set<IntegerVector> met;
-    std::unordered_set<IntegerVector> losses;
+    std::size_t num_choices = 0;
+    for (const StateIndex s : known_->members(c)) num_choices += known_->mdp().choices(s).size();
+    NormalSet met{d, kOfIntegers, num_choices};
+    NormalSet normals{d, kOfIntegers, num_choices};
+    IntegerVector loss(d);
+    std::vector<double> normal(d);
     for (const StateIndex s : known_->members(c)) {
+      const std::int64_t* const own = counts_[s.value()].begin();
       for (const Choice& choice : known_->mdp().choices(s)) {
         const Outcome& outcome = known_->mdp().outcomes(choice).front();
-        auto loss = counts_[s.value()] - known_->mdp().integer_features(outcome);
-        loss -= counts_[outcome.next.value()];
-        if (!loss.is_zero() && met.insert(loss).second) losses.insert(primitive(loss));
+        const std::int64_t* const next = counts_[outcome.next.value()].begin();
+        const std::int64_t* const phi = known_->mdp().integer_features(outcome).begin();
+        std::int64_t is_any = 0;
+        for (std::size_t k = 0; k < d; ++k) {
+          const std::int64_t x = own[k] - phi[k] - next[k];
+          is_any |= x;
+          loss[k] = x;
+          normal[k] = static_cast<double>(x);
+        }
+        if (is_any == 0 || !met.insert(normal.data())) continue;
+        const auto shortest = primitive(loss);
+        std::copy(shortest.begin(), shortest.end(), normal.begin());
+        normals.insert(normal.data());
       }
     }
-    // Those that hold by least first: they are the first to fail elsewhere.
-    std::vector<std::pair<double, const IntegerVector*>> by_margin;
-    for (const IntegerVector& loss : losses) by_margin.emplace_back(dot(loss, weights_), &loss);
-    std::sort(by_margin.begin(), by_margin.end());
-    for (const auto& [margin, loss] : by_margin) {
-      for (const std::int64_t x : *loss) part.normals.push_back(static_cast<double>(x));
-    }
+    part.normals = normals.by_margin(weights_);
     return holds(part);
   }
 
