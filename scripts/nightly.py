@@ -56,7 +56,8 @@ def covered(log):
 
 def tests(log):
     passed = re.findall(r"^\d+% tests passed, (\d+) tests? failed out of (\d+)", log, re.M)
-    return f"{int(passed[-1][1]) - int(passed[-1][0])} of {passed[-1][1]}" if passed else "-"
+    failed, all_tests = (sum(int(pair[i]) for pair in passed) for i in (0, 1))
+    return f"{all_tests - failed} of {all_tests}" if passed else "-"
 
 
 def table(head, rows):
