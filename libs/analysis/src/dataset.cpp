@@ -150,16 +150,6 @@ std::vector<std::optional<double>> Dataset::numbers(std::string_view column) con
   throw Error{std::move(diagnostics)};
 }
 
-bool Dataset::is_numeric(std::string_view column) const {
-  bool any = false;
-  for (const auto& cell : cells(column)) {
-    if (!cell) continue;
-    if (truth_of(*cell) || !number_of(*cell, decimal_comma_)) return false;
-    any = true;
-  }
-  return any;
-}
-
 Factor Dataset::factor(std::string_view column) const {
   const auto& texts = cells(column);
   std::vector<std::string> values;

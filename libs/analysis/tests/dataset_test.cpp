@@ -43,9 +43,6 @@ TEST(Dataset, TakesEmptyCellsAndNaAsMissing) {
 TEST(Dataset, TakesTruthAsOneAndZero) {
   const auto data = Dataset::parse(kText, "people.csv");
   EXPECT_EQ(data.numbers("done"), (std::vector<std::optional<double>>{1.0, 0.0, 1.0, 1.0}));
-  EXPECT_FALSE(data.is_numeric("done"));
-  EXPECT_TRUE(data.is_numeric("score"));
-  EXPECT_FALSE(data.is_numeric("strategy"));
 }
 
 TEST(Dataset, KeepsTheRowsThatPassEveryFilter) {
@@ -87,7 +84,6 @@ TEST(Dataset, ReadsSemicolonsDecimalCommasAndTruthOfR) {
   const auto data = Dataset::parse("g;y;done\na;1,5;TRUE\nb;2;FALSE\n", "people.csv");
   EXPECT_EQ(data.numbers("y"), (std::vector<std::optional<double>>{1.5, 2.0}));
   EXPECT_EQ(data.numbers("done"), (std::vector<std::optional<double>>{1.0, 0.0}));
-  EXPECT_FALSE(data.is_numeric("done"));
   EXPECT_EQ(data.where(std::vector{parse_row_filter("g=b")}).numbers("y").front(), 2.0);
   // Where commas separate the cells, they are no decimal points.
   EXPECT_EQ(diagnostic_of([] { (void)Dataset::parse("y\n\"1,5\"\n", "t.csv").numbers("y"); }).id, "E0902");

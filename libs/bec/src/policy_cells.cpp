@@ -88,7 +88,6 @@ class PolicyCellBuilder {
       cells_.nodes_[node].cell = leaf();
     } else {
       const HalfSpace plane = region_plane ? *region_plane : most_wanted(votes);
-      ++cells_.num_splits_;
       cells_.nodes_[node].normal = plane.unit_normal();
       const auto below = part.clipped(plane.opposite());
       const auto above = part.clipped(plane);

@@ -42,8 +42,6 @@ class PolicyCells {
   [[nodiscard]] Choice choice(PolicyCellIndex cell, HullIndex hull) const {
     return choices_[cell.value() * num_hulls_ + hull.value()];
   }
-  /// Leaves of the partition; several may belong to one cell.
-  [[nodiscard]] std::size_t num_leaves() const noexcept { return nodes_.size() - num_splits_; }
 
  private:
   friend class PolicyCellBuilder;
@@ -57,7 +55,6 @@ class PolicyCells {
 
   std::size_t num_hulls_ = 0;
   std::size_t num_cells_ = 0;
-  std::size_t num_splits_ = 0;
   std::vector<Node> nodes_;
   std::vector<Choice> choices_;  // row-major, shape [num_cells, num_hulls]
 };
