@@ -44,7 +44,9 @@ Weights centre_of(const Cone& region) {
 // Nearly the same direction, with as few digits as leave most of the margin.
 Weights rounded(const Weights& w, const Cone& region) {
   const double margin = margin_of(region, w);
-  for (double unit = 100.0; unit < 1e9; unit *= 10.0) {
+  double unit = 10.0;
+  for (int digits = 2; digits < 9; ++digits) {
+    unit *= 10.0;
     Weights few;
     bool some = false;
     for (const double x : w) {

@@ -41,11 +41,9 @@ std::string stem(std::string word) {
   if (irregular != kIrregular.end()) word = irregular->second;
   constexpr std::size_t kShort = 4;
   const auto drop = [&](std::size_t n) { word.resize(word.size() - n); };
-  if (word.size() > kShort && ends_with(word, "ies")) {
-    drop(2);
-  } else if (word.size() > kShort && ends_with(word, "ing")) {
+  if (word.size() > kShort && ends_with(word, "ing")) {
     drop(3);
-  } else if (word.size() > kShort && ends_with(word, "ed")) {
+  } else if (word.size() > kShort && (ends_with(word, "ies") || ends_with(word, "ed"))) {
     drop(2);
   } else if (word.size() > 3 && ends_with(word, "s")) {
     drop(1);

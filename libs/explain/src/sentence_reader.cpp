@@ -55,7 +55,7 @@ class Reader {
     std::int64_t n;
   };
 
-  bool sees(std::string_view what) const { return text_.compare(at_, what.size(), what) == 0; }
+  [[nodiscard]] bool sees(std::string_view what) const { return text_.compare(at_, what.size(), what) == 0; }
   bool takes(std::string_view what) {
     if (!sees(what)) return false;
     at_ += what.size();

@@ -67,7 +67,7 @@ class NoisyRationalLearner final : public LikeBayesian {
     std::vector<IntegerVector> paths{own};
     for (const auto& weights : others_) {
       auto path = behaviours.answer(test, behaviours.locate(weights));
-      if (path && std::find(paths.begin(), paths.end(), *path) == paths.end()) paths.push_back(*std::move(path));
+      if (path && std::find(paths.begin(), paths.end(), *path) == paths.end()) paths.push_back(*path);
     }
     return paths;
   }

@@ -18,6 +18,7 @@ class PresumedPerson final : public PresumedLearner {
   explicit PresumedPerson(std::unique_ptr<Learner> person) : person_{std::move(person)} {}
   PresumedPerson(const PresumedPerson& other) : PresumedLearner{other}, person_{other.person_->clone()} {}
   PresumedPerson& operator=(const PresumedPerson&) = delete;
+  ~PresumedPerson() override = default;
 
   [[nodiscard]] std::unique_ptr<PresumedLearner> clone() const override {
     return std::make_unique<PresumedPerson>(*this);

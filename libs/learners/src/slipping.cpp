@@ -17,8 +17,8 @@ std::vector<IntegerVector> slips_at(const Atlas& atlas, StartIndex test) {
   const auto id = atlas.id(test);
   const auto& robot = atlas.feature_counts(test);
   for (std::size_t choice = 0; choice < atlas.domain().mdp(id.mdp).choices(id.start).size(); ++choice) {
-    auto counts = atlas.deviation_counts(test, choice);
-    if (!judge_path(atlas.domain(), robot, counts).is_right) slips.push_back(std::move(counts));
+    const auto counts = atlas.deviation_counts(test, choice);
+    if (!judge_path(atlas.domain(), robot, counts).is_right) slips.push_back(counts);
   }
   return slips;
 }

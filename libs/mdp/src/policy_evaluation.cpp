@@ -160,8 +160,9 @@ void PathWalk::sum_up_kinds(std::span<const std::uint32_t> states, const PathSte
       double* const round = &values[s * kinds];
       std::fill_n(round, std::size_t{kinds}, 0.0);
       double share = 1.0;
-      for (auto at = first; at < walk_.size(); ++at, share *= discount) {
+      for (auto at = first; at < walk_.size(); ++at) {
         for (std::size_t k = 0; k < kinds; ++k) round[k] += share * row_counts[steps.row[walk_[at]] * kinds + k];
+        share *= discount;
       }
       for (std::size_t k = 0; k < kinds; ++k) round[k] /= 1.0 - share;
       marks_[s] = Mark::kKnown;

@@ -22,12 +22,13 @@ void add_once(std::vector<std::string>& all, const std::string& name) {
 
 // A terrain's texture on a whole cell around (0, 0): four by four tiles.
 std::string marks_of(const detail::Texture& texture) {
-  constexpr double kTile = 10.0;
+  constexpr int kTiles = 4;
+  const auto start = [](int tile) { return kCell * tile / kTiles - kCell / 2; };
   std::string marks;
-  for (double top = -kCell / 2; top < kCell / 2; top += kTile) {
-    for (double left = -kCell / 2; left < kCell / 2; left += kTile) {
+  for (int row = 0; row < kTiles; ++row) {
+    for (int column = 0; column < kTiles; ++column) {
       for (const auto& [x, y] : texture.at) {
-        marks += "M" + svg_number(left + x) + " " + svg_number(top + y) + texture.path;
+        marks += "M" + svg_number(start(column) + x) + " " + svg_number(start(row) + y) + texture.path;
       }
     }
   }

@@ -7,15 +7,16 @@ namespace kith {
 
 namespace {
 
+using namespace columns;  // NOLINT(google-build-using-namespace): what every table is made of
+
 constexpr auto* kMilliseconds = "ms since 1970";
-constexpr auto kSessionWords = columns::identifier(columns::kSession, "Id of the room, unique in this export.");
-constexpr ColumnWords kSeatWords{columns::kSeat, "Number of the person or stand-in in the room, from 1."};
-constexpr ColumnWords kPeriodWords{columns::kPeriod, "Interaction period, from 1."};
-constexpr ColumnWords kTestWords{columns::kTest, "Test within the period, from 1."};
-constexpr ColumnWords kComponentWords{columns::kTaughtComponent, "What was taught, from 1."};
+constexpr auto kSessionWords = identifier(kSession, "Id of the room, unique in this export.");
+constexpr ColumnWords kSeatWords{kSeat, "Number of the person or stand-in in the room, from 1."};
+constexpr ColumnWords kPeriodWords{kPeriod, "Interaction period, from 1."};
+constexpr ColumnWords kTestWords{kTest, "Test within the period, from 1."};
+constexpr ColumnWords kComponentWords{kTaughtComponent, "What was taught, from 1."};
 
 void declare(TableOf<SessionRow>& table) {
-  using namespace columns;
   using R = SessionRow;
   table.column(&R::session, kSessionWords)
       .column(&R::strategy, {kStrategy, "Strategy that the room was made with."})
@@ -42,7 +43,6 @@ void declare(TableOf<SessionRow>& table) {
 }
 
 void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options) {
-  using namespace columns;
   using R = ParticipantRow;
   table.column(&R::session, kSessionWords)
       .column(&R::seat, kSeatWords)
@@ -70,7 +70,6 @@ void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options
 }
 
 void declare(TableOf<PeriodRow>& table) {
-  using namespace columns;
   using R = PeriodRow;
   table.column(&R::session, kSessionWords)
       .column(&R::period, kPeriodWords)
@@ -88,7 +87,6 @@ void declare(TableOf<PeriodRow>& table) {
 }
 
 void declare(TableOf<TestRow>& table, const SessionExportOptions& options) {
-  using namespace columns;
   using R = TestRow;
   table.column(&R::session, kSessionWords)
       .column(&R::period, kPeriodWords)
@@ -115,7 +113,6 @@ void declare(TableOf<TestRow>& table, const SessionExportOptions& options) {
 }
 
 void declare(TableOf<DiscussionRow>& table) {
-  using namespace columns;
   using R = DiscussionRow;
   table.column(&R::session, kSessionWords)
       .column(&R::period, kPeriodWords)
@@ -133,7 +130,6 @@ void declare(TableOf<DiscussionRow>& table) {
 ExportTables::ExportTables(const SessionExportOptions& options)
     : questions{"questions.csv", options.with_text ? "One answer to one question at the end."
                                                    : "One answer to one question at the end; free text is left out."} {
-  using namespace columns;
   declare(sessions);
   declare(participants, options);
   declare(periods);

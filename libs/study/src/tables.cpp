@@ -115,13 +115,13 @@ class RecordColumns {
     const auto find = [outer = find_, member](const Row& row) -> const typename Held::Type* {
       const Record* record = outer(row);
       if (record == nullptr) return nullptr;
-      if constexpr (Held::is_optional) {
+      if constexpr (Held::kIsOptional) {
         return record->*member ? &*(record->*member) : nullptr;
       } else {
         return &(record->*member);
       }
     };
-    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
+    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::kIsOptional;
     RecordColumns<Row, decltype(find)> fields{table_, study_, find, required};
     declare(fields, columns::Declared<typename Held::Type>{});
   }
@@ -158,7 +158,7 @@ class RecordColumns {
       if (record == nullptr) return std::nullopt;
       return std::invoke(function, *record);
     };
-    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::is_optional;
+    const bool required = options.required != nullptr ? options.required(study_) : is_required_ && !Held::kIsOptional;
     table_.column(cell, words, {.required = required, .before = options.before});
   }
 

@@ -68,7 +68,7 @@ class Learner {
   /// these half-spaces. Does nothing to people of models that do not say otherwise.
   virtual void be_convinced(std::span<const HalfSpace> /*half_spaces*/, std::size_t /*period*/) {}
   /// Comes to believe something else by talking to the others. As be_convinced().
-  virtual void believe(ParticleBelief /*belief*/) {}
+  virtual void believe(ParticleBelief /*belief*/) {}  // NOLINT(performance-unnecessary-value-param): others keep it
 
   /// The probability, in [0, 1], that answer() gives exactly these answers in the present state; nothing if the
   /// person has no answer to these tests. @pre evidence is not empty, and has paths if LearnerModel::needs_paths.

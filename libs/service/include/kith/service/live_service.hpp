@@ -59,6 +59,8 @@ class LiveService final : public LiveApplication {
   LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOptions options);
   /// As stop().
   ~LiveService() override;
+  LiveService(const LiveService&) = delete;
+  LiveService& operator=(const LiveService&) = delete;
 
   /// New tokens of a facilitator and an observer. Those given earlier stay valid until they expire or are revoked.
   [[nodiscard]] StartLinks start_links();

@@ -46,12 +46,12 @@ namespace detail {
 
 template <typename Value>
 struct CellType {
-  static constexpr bool is_optional = false;
+  static constexpr bool kIsOptional = false;
   using Type = Value;
 };
 template <typename Value>
 struct CellType<std::optional<Value>> {
-  static constexpr bool is_optional = true;
+  static constexpr bool kIsOptional = true;
   using Type = Value;
 };
 
@@ -122,7 +122,7 @@ class TableOf {
                                                            .type = detail::column_type<typename Held::Type>(),
                                                            .description = std::string{words.description},
                                                            .unit = std::string{words.unit},
-                                                           .required = options.required.value_or(!Held::is_optional),
+                                                           .required = options.required.value_or(!Held::kIsOptional),
                                                            .kind = words.kind});
     cells_.insert(cells_.begin() + place, [value = std::move(value)](CsvWriter& writer, const Row& row) {
       detail::write_cell(writer, std::invoke(value, row));
