@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 # night before has built it, more than an hour for all parts together where nobody has.
 night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
 declare -A budget=([release]=16 [ratios]=3 [headers]=10 [asan]=24 [tsan]=5 [python]=6 [lesson]=12 [fuzz]=7 [coverage]=4
-  [slow]=38 [tidy]=6)
+  [slow]=38 [tidy]=40)
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
