@@ -212,13 +212,13 @@ void require_paths_of(const ResponseLogs& logs) {
 
 }  // namespace
 
-KindsReport fit_kinds(const ResponseLogs& logs, const KindsOptions& options, LearnerModels all) {
+KindsReport fit_kinds(const ResponseLogs& logs, const KindsOptions& options, LearnerModels models) {
   require_paths_of(logs);
-  std::vector<const LearnerModel*> models;
+  std::vector<const LearnerModel*> comparable;
   std::vector<std::vector<KindPoint>> points;
-  for (const auto* model : all) {
+  for (const auto* model : models) {
     if (model->traits.size() != bayesian_model().traits.size()) continue;  // people who are described otherwise
-    models.push_back(model);
+    comparable.push_back(model);
     points.push_back(kind_points(*model, options.abilities));
   }
   std::vector<PriorCover> covers;
@@ -236,22 +236,22 @@ KindsReport fit_kinds(const ResponseLogs& logs, const KindsOptions& options, Lea
     const auto& known = logs.models.at(log.model);
     const KindReplay replay{log, known, covers[log.model], options.slip};
     const auto random = RandomStream{options.seed}.split("kinds").split(log.id);
-    for (std::size_t k = 0; k < models.size(); ++k) {
+    for (std::size_t k = 0; k < comparable.size(); ++k) {
       std::vector<double> likelihoods;
       for (const auto& point : points[k]) {
         std::vector<double> runs;
         for (std::size_t r = 0; r < options.replicates; ++r) {
-          runs.push_back(replay.log_likelihood(*models[k], point, random.split(r)));
+          runs.push_back(replay.log_likelihood(*comparable[k], point, random.split(r)));
         }
         likelihoods.push_back(log_mean_of_kinds(runs));
       }
       person.log_evidence.push_back(log_mean_of_kinds(likelihoods));
-      person.parameters.push_back(kind_parameters(*models[k], points[k], likelihoods));
+      person.parameters.push_back(kind_parameters(*comparable[k], points[k], likelihoods));
     }
     name_kind(person);
   });
   if (!report.complete) return report;
-  report.kinds = kinds_of_population(models, people);
+  report.kinds = kinds_of_population(comparable, people);
   report.people = std::move(people);
   return report;
 }

@@ -66,8 +66,8 @@ class PathWalk {
  public:
   explicit PathWalk(std::size_t num_states) : marks_(num_states, Mark::kKnown) {}
 
-  // What the paths from some states count, each step as its feature row says: exact, in one pass, the
-  // cycle of a path that never ends as a geometric series.
+  // What the paths from some states count under a policy of these steps, each as its feature row says: exact, in one
+  // pass, the cycle of a path that never ends as a geometric series.
   // @param row_counts  row-major, shape [num_feature_rows, kinds]. @param values  shape [num_states + num_terminals,
   // kinds]; those of other states are given.
   void sum_up(std::span<const std::uint32_t> states, const PathSteps& steps, std::span<const double> row_counts,

@@ -60,6 +60,6 @@ struct KindsReport {
 /// from those before, and a kind with more parameters has no advantage.
 /// @throws kith::Error (kInfeasible, E0710) without people; (kInvalidInput, E0714) if the logs do not have paths.
 [[nodiscard]] KindsReport fit_kinds(const ResponseLogs& logs, const KindsOptions& options,
-                                    LearnerModels all = learner_models());
+                                    LearnerModels models = learner_models());
 
 }  // namespace kith
