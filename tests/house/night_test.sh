@@ -8,7 +8,8 @@ fail() { echo "$*"; exit 1; }
 
 page=$folder/nightly.md
 cp docs/nightly.md "$page"
-printf 'fuzz\t10\t9:30\t1:02\tpassed\nslow\t22\t22:00\t0:01\tout of time\n' >"$folder/results.tsv"
+printf 'fuzz\t10\t9:30\t1:02\tpassed\nasan\t24\t9:00\t1:00\tfailed\nslow\t22\t22:00\t0:01\tout of time\n' >"$folder/results.tsv"
+printf '%s\n' '96% tests passed, 1 tests failed out of 25' '100% tests passed, 0 tests failed out of 7' >"$folder/asan.log"
 printf 'csv             1200 executions     100/s  past parser 50 %%\n' >"$folder/fuzz.log"
 printf '%s\n' 'kill       first            7       5        4        1          0        0      0' \
   'timer      first            3       2        2        0          0        0      0' \
@@ -25,6 +26,8 @@ for i in "${!grown[@]}"; do
   ((after[i] - before[i] == grown[i])) || fail "from ${before[i]} to ${after[i]}, not by ${grown[i]}"
 done
 grep -q '^| slow | 22 | 22:00 | 0:01 | out of time | - | second |' "$page" || fail "the last night of a part is not on the page"
+
+grep -q '^| asan | 24 | 9:00 | 1:00 | failed | 31 of 32 | second |' "$page" || fail "the tests of a part do not add up"
 
 for target in $(sed -n 's/^kith_fuzz_target(\([a-z_0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt); do
   grep -q "^| executions of $target |" docs/nightly.md || fail "docs/nightly.md does not count executions of $target"
