@@ -67,7 +67,9 @@ class RoomDetailPage {
   [[nodiscard]] std::string why(const Lesson& lesson) const {
     if (lesson.repeats) return "No demonstration would add anything, so the previous lesson is shown again.";
     std::string text;
-    if (lesson.source.is_member()) {
+    if (lesson.source.is_everybody()) {
+      text = "Chosen for everybody: for what the teacher believes about each member.";
+    } else if (lesson.source.is_member()) {
       text = "Chosen for what the teacher believes about " + member_label(lesson.source.member) + ".";
     } else if (lesson.source.rule == "common") {
       text = "Chosen for the common belief: what all members know.";

@@ -74,7 +74,7 @@ void declare(TableOf<PeriodRow>& table) {
   table.column(&R::session, kSessionWords)
       .column(&R::period, kPeriodWords)
       .column(&R::component, kComponentWords)
-      .column(&R::source, {"source", "Whose belief the lesson was chosen for: common, joint, or member N."})
+      .column(&R::source, {"source", "Whose belief the lesson was chosen for: common, joint, everybody, or member N."})
       .column(&R::chosen_ms, {"chosen_ms", "When the teacher had chosen the lesson.", kMilliseconds})
       .column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown."))
       .column(&R::tests, count(kTests, "Tests asked."))
