@@ -300,15 +300,22 @@ void HostedRoom::start_task(TeachingPool::Urgency urgency, const TeachingTask& t
   host_.teach(urgency, [self = shared_from_this(), task, runners_up](TeachingCache& cache) {
     std::shared_ptr<const TaughtLesson> lesson;
     std::string problem;
-    try {
-      lesson = std::make_shared<const TaughtLesson>(task.run(cache, runners_up));
-    } catch (const std::exception& error) {
-      problem = error.what();
-    }
+    const auto choose = [&](std::size_t others) {
+      try {
+        lesson = std::make_shared<const TaughtLesson>(task.run(cache, others));
+      } catch (const std::exception& error) {
+        problem = error.what();
+      }
+    };
+
+    // Nobody is taught otherwise because somebody looks.
+    choose(runners_up);
+    if (!lesson && runners_up > 0) choose(0);
     self->host_.post(self->number(), [self, lesson, problem](TeachingCache&) {
+      const auto* what = lesson ? " does not tell what else could be shown: " : " cannot be taught: ";
+      if (!problem.empty()) self->host_.on_trouble(self->number(), "room " + self->setup_.code + what + problem);
       if (lesson) return self->on_lesson(lesson);
       self->broken_ = problem;
-      self->host_.on_trouble(self->number(), "room " + self->setup_.code + " cannot be taught: " + problem);
       self->advance();
     });
   });

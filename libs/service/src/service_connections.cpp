@@ -148,9 +148,9 @@ void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
       if (outcome.refusal && !room->room()) return connection->dismiss("removed", kPolicy);
       if (room->room() == nullptr) return;
       if (current_place(*connection) != place) return attend(connection);
-      const Viewer viewer{.role = Viewer::Role::kParticipant, .seat = static_cast<std::size_t>(place.second)};
-      if (viewer.seat > room->room()->num_seats()) return connection->dismiss("removed", kPolicy);
-      push_view(*connection, room->room()->view(viewer, now_us()));
+      const auto own = static_cast<std::size_t>(place.second);
+      if (own > room->room()->num_seats()) return connection->dismiss("removed", kPolicy);
+      push_page(*connection, *room, own);
     };
     const bool is_new = [&] {
       const std::lock_guard lock{mutex};
@@ -335,6 +335,15 @@ void LiveService::State::push_view(Connection& connection, Json view) const {
   connection.send({{"t", "view"}, {"view", std::move(view)}});
 }
 
+// Shows somebody their page; if there is none, that ends their connection and nothing else.
+void LiveService::State::push_page(Connection& connection, const HostedRoom& hosted, std::size_t seat) {
+  if (connection.is_closed) return;
+  const Viewer viewer{.role = Viewer::Role::kParticipant, .seat = seat};
+  const bool is_shown = can_show(hosted, "page of seat " + std::to_string(seat),
+                                 [&] { push_view(connection, hosted.room()->view(viewer, now_us())); });
+  if (!is_shown) connection.dismiss("no-view", kGoingAway);
+}
+
 // Shows everybody in a room what has become of it.
 void LiveService::State::push_room(HostedRoom& hosted) {
   const auto* room = hosted.room();
@@ -348,10 +357,8 @@ void LiveService::State::push_room(HostedRoom& hosted) {
       if (found != connections.end()) people.emplace_back(static_cast<std::size_t>(at->first.second), found->second);
     }
   }
-  const auto now = now_us();
   for (const auto& [seat, person] : people) {
-    if (seat <= room->num_seats() && room->is_person(seat))
-      push_view(*person, room->view({.role = Viewer::Role::kParticipant, .seat = seat}, now));
+    if (seat <= room->num_seats() && room->is_person(seat)) push_page(*person, hosted, seat);
   }
 }
 

@@ -280,7 +280,7 @@ LiveService::HttpReply LiveService::State::export_tables(const std::string& quer
             .body = tar_of(files, now_us() / kSecond),
             .headers = {{"Content-Disposition", "attachment; filename=\"kith-session.tar\""},
                         {"Cache-Control", "no-store"}}};
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     return error_reply(500, "export", error.what());
   }
 }

@@ -108,9 +108,10 @@ struct LiveService::State final : HostedRoom::Host {
   std::size_t ticks_awaited = 0;         // of those to come: a facilitator waits for what they asked for
   std::multiset<std::int64_t> selected;  // rooms that facilitators look at
   std::deque<LogEntry> log;
-  std::map<std::int64_t, std::string> troubles;                 // by room
-  std::map<std::string, std::deque<std::int64_t>> joins;        // by address, when
-  std::map<std::string, std::deque<std::int64_t>> wrong_codes;  // the same of codes that do not exist
+  std::map<std::int64_t, std::string> troubles;                        // by room
+  std::map<std::pair<std::int64_t, std::string>, std::string> unseen;  // by room, and what of it cannot be shown
+  std::map<std::string, std::deque<std::int64_t>> joins;               // by address, when
+  std::map<std::string, std::deque<std::int64_t>> wrong_codes;         // the same of codes that do not exist
   // By room and seat: query parameters of people who have not consented yet. They are stored with the consent.
   std::map<Place, Json> queries;
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
@@ -213,11 +214,14 @@ struct LiveService::State final : HostedRoom::Host {
   void revoke_link(const std::string& id, const Json& body, const Reply& reply);
   void attend(const std::shared_ptr<Connection>& connection);
   void push_view(Connection& connection, Json view) const;
+  void push_page(Connection& connection, const HostedRoom& hosted, std::size_t seat);
   void push_room(HostedRoom& hosted);
   void tell_presence(std::int64_t number, std::int64_t seat, const char* type);
   [[nodiscard]] std::shared_ptr<Connection> connection_of(ConnectionId id) const;
 
   // service_views.cpp
+  // Shows something of a room to whoever looks. If that fails facilitators read why, and the room goes on.
+  bool can_show(const HostedRoom& hosted, const std::string& what, const std::function<void()>& show);
   void take_picture(HostedRoom& hosted);
   void show_facilitators();
   // Shows them at the next tick what there is, and at the one after it the pictures that are taken meanwhile. @pre the

@@ -11,6 +11,7 @@ namespace kith {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1000;
+constexpr std::uint16_t kGoingAway = 1001;
 
 // A room's row, and for each of its seats what is not known to the room.
 struct Row {
@@ -35,6 +36,24 @@ Json filled(const Row& from) {
 
 }  // namespace
 
+bool LiveService::State::can_show(const HostedRoom& hosted, const std::string& what,
+                                  const std::function<void()>& show) {
+  std::string problem;
+  try {
+    show();
+  } catch (const std::exception& error) {
+    problem = "room " + hosted.setup().code + ": the " + what + " cannot be shown: " + error.what();
+  }
+  const std::lock_guard lock{mutex};
+  const std::pair key{hosted.number(), what};
+  if (problem.empty()) {
+    has_news = unseen.erase(key) > 0 || has_news;
+  } else {
+    has_news = std::exchange(unseen[key], problem) != problem || has_news;
+  }
+  return problem.empty();
+}
+
 // Remembers how a room looks, for facilitators. On its strand.
 void LiveService::State::take_picture(HostedRoom& hosted) {
   const auto* room = hosted.room();
@@ -47,10 +66,9 @@ void LiveService::State::take_picture(HostedRoom& hosted) {
   RoomPicture picture;
   const auto take = [&](Viewer::Role role, auto& row, auto& detail) {
     const Viewer viewer{.role = role, .seat = 0};
-    row = std::make_shared<const Json>(room->row(viewer));
+    can_show(hosted, "row", [&] { row = std::make_shared<const Json>(room->row(viewer)); });
     if (!is_selected) return;
-    auto view = room->view(viewer, now);
-    detail = std::make_shared<const Json>(std::move(view["room"]));
+    can_show(hosted, "page", [&] { detail = std::make_shared<const Json>(room->view(viewer, now).at("room")); });
   };
   take(Viewer::Role::kFacilitator, picture.row, picture.detail);
   take(Viewer::Role::kObserver, picture.observer_row, picture.observer_detail);
@@ -68,7 +86,13 @@ void LiveService::State::show_facilitators() {
       if (connection->is_known && connection->identity.role != Role::kParticipant) watchers.push_back(connection);
     }
   }
-  for (const auto& watcher : watchers) push_view(*watcher, facilitator_view(*watcher));
+  for (const auto& watcher : watchers) {
+    try {
+      push_view(*watcher, facilitator_view(*watcher));
+    } catch (const std::exception&) {
+      watcher->dismiss("no-view", kGoingAway);
+    }
+  }
 }
 
 Json LiveService::State::facilitator_view(const Connection& connection) const {
@@ -147,6 +171,7 @@ Json LiveService::State::integrity() const {
     problems.push_back("Only " + std::to_string(free_space / 1'000'000) + " MB are free on the disk" +
                        (free_space < kNoSpace ? ": nobody new is let in." : "."));
   for (const auto& [room, what] : troubles) problems.push_back(what);
+  for (const auto& [view, what] : unseen) problems.push_back(what);
   return {{"events", counters.events + unsaved},
           {"stored", counters.events},
           {"unsaved", unsaved},

@@ -29,6 +29,10 @@ const kDismissals: Record<string, { title: string; text: string }> = {
     text: 'It has expired, was revoked, or was copied incompletely. kith serve prints the facilitator link when it starts.',
   },
   removed: { title: 'This link was revoked', text: 'Another facilitator revoked it. Ask for a new one.' },
+  'no-view': {
+    title: 'This page cannot be shown',
+    text: 'An error on the server ended this page. The groups go on without it. Reload it to try again.',
+  },
   'opened-elsewhere': {
     title: 'Opened elsewhere',
     text: 'This page was opened with the same link in another tab or on another computer. Only one of them is connected.',
@@ -41,9 +45,9 @@ export function Dismissed({ reason }: { reason: SocketState['bye'] }): JSX.Eleme
     <main id="main" class="plain-page" tabIndex={-1}>
       <h1>{title}</h1>
       <p>{text}</p>
-      {reason === 'opened-elsewhere' ? (
+      {reason === 'opened-elsewhere' || reason === 'no-view' ? (
         <button type="button" class="primary" onClick={() => window.location.reload()}>
-          Use it here
+          {reason === 'no-view' ? 'Reload' : 'Use it here'}
         </button>
       ) : (
         <AskLink />

@@ -8,7 +8,7 @@ const kReplyMs = 15000; // without a reply that is due, the connection is dead
 const kAttemptMs = 2000; // a slower attempt is given up when the network may have become better
 const kBackoffMs = { first: 500, longest: 8000 };
 
-export type ByeReason = 'opened-elsewhere' | 'removed' | 'server-stops' | 'bad-token';
+export type ByeReason = 'opened-elsewhere' | 'removed' | 'server-stops' | 'bad-token' | 'no-view';
 
 export interface SocketState {
   phase: 'connecting' | 'open' | 'lost' | 'closed'; // lost: it is reconnecting; closed: for good
