@@ -94,10 +94,11 @@ function(kith_add_web_apps)
   endforeach()
 endfunction()
 
-# Types, sample documents as a reader sees them, and documents that lack parts.
+# Types, doors of lesson files, sample documents as a reader sees them, and documents that lack parts.
 function(kith_test_web_pages source build)
   add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})
-  set_tests_properties(web.Types PROPERTIES LABELS web)
+  add_test(NAME web.DoorRules COMMAND ${KITH_NODE} ${source}/tests/door_rules_test.mjs --modules ${build})
+  set_tests_properties(web.Types web.DoorRules PROPERTIES LABELS web)
   if(NOT KITH_CHROMIUM)
     message(STATUS "No Chromium: pages are not tested in a browser (apt-get install chromium)")
     return()

@@ -77,7 +77,7 @@ function fill(template, name, value) {
 
 // Texts of screens that only live sessions have.
 const kOnlyLive =
-  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|explore|debrief|end|bye|pause|trouble|progress|file|door)\./;
+  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|explore|debrief|end|bye|pause|trouble|progress|file|data|door)\./;
 const kStarting = /^(trouble\.title|file\.(old_browser|broken))$/; // all that is said before a lesson file is unpacked
 const textsThat = (isKept) => ({
   name: 'texts',

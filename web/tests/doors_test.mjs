@@ -1,7 +1,7 @@
 // Lessons in a file as learning systems and pages around them have them: a package played under scorm-again, statements
 // checked by xapi-validation, messages to the page of a frame.
 //
-//   node tests/doors_test.mjs --kith PROGRAM [--modules DIR] [--chromium FILE]
+//   node tests/doors_test.mjs --kith PROGRAM [--screenshots DIR] [--modules DIR] [--chromium FILE]
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -12,6 +12,7 @@ import { after, before, describe, it } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { launch, requireFrom } from './browser.mjs';
+import { Cmi5Player } from './doors/cmi5_player.mjs';
 import { reach, until } from './live/kith_tests.mjs';
 import { Reader } from './live/reader.mjs';
 
@@ -20,11 +21,12 @@ const { values } = parseArgs({
   options: {
     kith: { type: 'string' },
     modules: { type: 'string', default: join(here, '..') },
+    screenshots: { type: 'string' },
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
 });
 if (!values.kith) {
-  console.error('usage: node tests/doors_test.mjs --kith PROGRAM [--modules DIR] [--chromium FILE]');
+  console.error('usage: node tests/doors_test.mjs --kith PROGRAM [--screenshots DIR] [--modules DIR] [--chromium FILE]');
   process.exit(2);
 }
 const folder = mkdtempSync(join(tmpdir(), 'kith-doors-'));
@@ -33,47 +35,12 @@ const validate = require('xapi-validation').default;
 const kRoom = 4096; // characters of suspend data
 let browser, server, origin;
 
-// Whoever keeps statements and states: what it is told is checked and remembered.
-class Store {
-  statements = [];
-  states = new Map();
-  trouble = [];
-  isDown = false;
-
-  answer(request, url, body) {
-    if (url.pathname === '/fetch') return [200, { 'auth-token': 'a-token' }];
-    if (this.isDown) return [503, {}];
-    assert.equal(request.headers.authorization, 'Basic a-token');
-    assert.equal(request.headers['x-experience-api-version'], '1.0.3');
-    if (url.pathname === '/store/statements') {
-      const all = JSON.parse(body);
-      for (const one of all) assert.deepEqual(validate(one).map(String), []);
-      this.statements.push(...all);
-      return [200, all.map(({ id }) => id)];
-    }
-    const name = url.searchParams.get('stateId');
-    assert.ok(url.searchParams.get('activityId') && url.searchParams.get('agent') && url.searchParams.get('registration'));
-    if (request.method === 'PUT') this.states.set(name, body);
-    else if (!this.states.has(name)) return [404, {}];
-    return [200, this.states.get(name)];
-  }
-}
-let store;
+let player; // of cmi5
 
 const kLearningSystem = `<!doctype html><title>A learning system</title><script src="/scorm12.js"></script>
 <script>window.API = new Scorm12API({ autocommit: false, logLevel: 5 });</script>`;
 const around = (lesson) => `<!doctype html><title>A survey</title><iframe src="${lesson}" width="1000" height="800"></iframe>
 <script>window.told = []; addEventListener('message', ({ data }) => window.told.push(data));</script>`;
-
-// What the page does wrong is said at the end of the test.
-function answerOfStore(request, url, body) {
-  try {
-    return store.answer(request, url, body);
-  } catch (error) {
-    store.trouble.push(error.message);
-    return [400, {}];
-  }
-}
 
 function serve(request, response, body) {
   const url = new URL(request.url, 'http://here');
@@ -83,8 +50,11 @@ function serve(request, response, body) {
   if (url.pathname === '/scorm12.js') return send(200, 'text/javascript', readFileSync(join(values.modules, 'node_modules/scorm-again/dist/scorm12.min.js')));
   if (url.pathname === '/lesson.html' || url.pathname === '/framed.html') return send(200, 'text/html; charset=utf-8', readFileSync(join(folder, url.pathname)));
   if (url.pathname === '/favicon.ico') return send(204, 'image/png', '');
-  const [status, content] = answerOfStore(request, url, body);
-  return send(status, 'application/json', typeof content === 'string' ? content : JSON.stringify(content));
+  const [status, content] = player.answer(url.href, { method: request.method, headers: request.headers, body });
+  if (url.pathname === '/lrs/statements' && status === 200) {
+    for (const one of JSON.parse(body)) player.refused.push(...validate(one).map(String));
+  }
+  return send(status, 'application/json', content);
 }
 
 before(async () => {
@@ -126,6 +96,11 @@ describe('a package for learning systems', () => {
     await system.evaluate(() => void window.open('/lesson.html'));
     const reader = new Reader(context, await opening, origin);
     await reader.arrived();
+    assert.equal(await system.evaluate(() => window.API.isInitialized()), false, 'nothing is read before consent');
+    await reader.page.getByText('Once you agree, the learning system').waitFor();
+    if (values.screenshots) await reader.page.screenshot({ path: join(values.screenshots, 'consent_scorm.png'), fullPage: true });
+    await reader.consent();
+    await until(() => reader.view.stage !== 'consent');
     const value = (name) => system.evaluate((one) => window.API.cmi && window.API.getCMIValue(one), name);
     await body(reader, value, system);
     await reader.page.close({ runBeforeUnload: false });
@@ -143,13 +118,15 @@ describe('a package for learning systems', () => {
       await reach([reader], ['watch']);
       await reach([reader], ['predict']);
       before = { stage: reader.view.stage, progress: reader.view.progress };
+      await reader.page.waitForFunction(() => window.opener.API.getCMIValue('cmi.core.lesson_status') === 'incomplete');
       assert.equal(await value('cmi.core.lesson_status'), 'incomplete');
     });
     assert.ok(left.suspend_data.length > 100 && left.suspend_data.length <= kRoom, `${left.suspend_data.length} characters`);
     assert.equal(left.core.exit, 'suspend');
 
     const done = await visit({ cmi: { suspend_data: left.suspend_data, core: { lesson_status: 'incomplete', entry: 'resume' } } }, async (reader, value) => {
-      assert.deepEqual({ stage: reader.view.stage, progress: reader.view.progress }, before);
+      await until(() => reader.view.stage === before.stage);
+      assert.deepEqual(reader.view.progress, before.progress);
       await reach([reader], ['debrief', 'ended']);
       await reader.page.waitForFunction(() => window.opener.API.getCMIValue('cmi.core.lesson_status') !== 'incomplete');
       assert.equal(await value('cmi.core.lesson_status'), 'passed');
@@ -180,53 +157,71 @@ describe('a package for learning systems', () => {
     await context.close();
   });
 
-  it('tells a cmi5 system every prediction and component, and each end once', async () => {
-    store = new Store();
-    const address = (session) => {
-      const extensions = { 'https://w3id.org/xapi/cmi5/context/extensions/sessionid': session };
-      const contextTemplate = { contextActivities: { grouping: [{ id: 'https://example.org/course' }] }, extensions };
-      store.states.set('LMS.LaunchData', JSON.stringify({ contextTemplate, launchMode: 'Normal', moveOn: 'CompletedOrPassed' }));
-      const query = { endpoint: `${origin}/store`, fetch: `${origin}/fetch?${session}`, registration: '7b0b6c1e-2f1a-4f0e-9d3a-0e4f6f1f3c11', activityId: 'urn:example:au' };
-      const actor = JSON.stringify({ objectType: 'Agent', account: { homePage: 'https://example.org', name: '17' } });
-      return `${origin}/lesson.html?${new URLSearchParams({ ...query, actor })}`;
-    };
-    const session = async (name, body) => {
+  it('tells a cmi5 system every prediction and component, each end once, and nothing that it refuses', async () => {
+    player = new Cmi5Player({ returnURL: `${origin}/system.html` });
+    const visitPlayer = async (body) => {
       const context = await browser.newContext({ reducedMotion: 'reduce' });
       await Reader.listen(context);
-      const reader = new Reader(context, await context.newPage(), address(name));
+      const reader = new Reader(context, await context.newPage(), player.launch(`${origin}/lesson.html`, origin));
       reader.expects.push(/404/);
+      const { requests } = player;
       await reader.open();
-      assert.deepEqual(store.trouble, []);
+      assert.equal(player.requests, requests, 'nothing is asked before consent');
+      await reader.page.getByText('Once you agree, it is told each of your predictions').waitFor();
+      await reader.consent();
+      await until(() => reader.view.stage !== 'consent');
       await body(reader);
-      const last = () => store.statements[store.statements.length - 1].verb.display.en;
-      await reader.page.goto('about:blank');
-      await until(() => last() === 'terminated');
-      assert.deepEqual([...store.trouble, ...reader.trouble], []);
+      assert.deepEqual([...player.refused, ...reader.trouble], []);
       await context.close();
     };
     let before;
-    await session('one', async (reader) => {
+    await visitPlayer(async (reader) => {
       await reach([reader], ['feedback']);
+      await reader.reload();
       await reach([reader], ['watch']);
       before = reader.view.progress;
+      await reader.button('Leave the lesson').click();
+      await reader.page.waitForURL('**/system.html');
+      assert.equal(player.verbs.at(-1), 'terminated');
     });
-    await session('two', async (reader) => {
+    await visitPlayer(async (reader) => {
+      await until(() => reader.view.stage === 'watch');
       assert.deepEqual(reader.view.progress, before);
       await reach([reader], ['debrief', 'ended']);
-      await until(() => store.statements.some(({ verb }) => verb.display.en === 'completed'));
+      await until(() => player.states.get('kith').includes('"hasCompleted":true'));
+      await reader.page.waitForLoadState('networkidle');
+      await reader.page.goto('about:blank');
+      await until(() => player.verbs.at(-1) === 'terminated');
     });
-    const verbs = store.statements.map(({ verb }) => verb.display.en);
+    const { verbs, statements } = player;
     const count = (verb) => verbs.filter((one) => one === verb).length;
-    assert.equal(verbs[0], 'initialized');
     assert.deepEqual(['initialized', 'terminated', 'passed', 'failed', 'completed'].map(count), [2, 2, 1, 0, 1]);
-    const answered = store.statements.filter(({ verb }) => verb.display.en === 'answered');
+    const answered = statements.filter(({ verb }) => verb.display.en === 'answered');
     assert.equal(new Set(answered.map(({ object }) => object.id)).size, answered.length, 'a prediction was told twice');
     for (const { result } of answered) {
       assert.equal(typeof Object.values(result.extensions)[0], 'number');
       assert.equal(result.success, true);
     }
     assert.ok(count('progressed') > 0);
-    assert.equal(store.statements.find(({ verb }) => verb.display.en === 'passed').result.score.scaled, 1);
+    assert.equal(statements.find(({ verb }) => verb.display.en === 'passed').result.score.scaled, 1);
+  });
+
+  it('starts again in the same visit when the learner does', async () => {
+    player = new Cmi5Player();
+    const context = await browser.newContext({ reducedMotion: 'reduce' });
+    await Reader.listen(context);
+    const reader = new Reader(context, await context.newPage(), player.launch(`${origin}/lesson.html`, origin));
+    reader.expects.push(/404/);
+    await reader.open();
+    await reach([reader], ['predict']);
+    await reader.button('Start again').click();
+    await Promise.all([reader.page.waitForEvent('load'), reader.button('Erase and start again').click()]);
+    await reader.page.waitForSelector('main.stage-consent');
+    await until(() => reader.view.stage === 'consent');
+    await reach([reader], ['watch']);
+    assert.deepEqual([...player.refused, ...reader.trouble], []);
+    assert.equal(player.verbs.filter((verb) => verb === 'initialized').length, 1);
+    await context.close();
   });
 });
 
@@ -236,6 +231,8 @@ describe('a lesson in a frame', () => {
       const page = await browser.newPage();
       await page.goto(`${name}/survey.html`);
       const lesson = page.frameLocator('iframe');
+      await lesson.getByText('Once you agree, the page around this lesson').waitFor();
+      assert.deepEqual(await page.evaluate(() => window.told), [], 'nothing is told before consent');
       await lesson.getByRole('checkbox').check();
       await lesson.getByRole('button', { name: 'Agree and continue' }).click();
       await lesson.getByRole('heading', { name: 'What this is about' }).waitFor();

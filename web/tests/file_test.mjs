@@ -113,6 +113,25 @@ describe('a lesson in a file', () => {
     });
   });
 
+  it('is held by the tab that opened it last: an older one says so, writes nothing, and can take over', async () => {
+    await withReader('delivery.html', {}, async (older) => {
+      await reach([older], ['watch']);
+      const newer = new Reader(older.context, await older.context.newPage(), older.page.url());
+      await newer.open();
+      await older.page.getByRole('heading', { name: 'Open in another tab' }).waitFor();
+      assert.equal(await older.button('Start again').count(), 0);
+      await reach([newer], ['feedback']);
+      const kept = () => newer.page.evaluate(() => JSON.stringify(Object.entries(localStorage).find(([key]) => !key.endsWith('.tab'))));
+      const before = await kept();
+      await older.button('Use this tab instead').click();
+      await newer.page.getByRole('heading', { name: 'Open in another tab' }).waitFor();
+      await until(() => older.view.stage === 'feedback');
+      assert.deepEqual(older.view.progress, newer.view.progress);
+      assert.equal(await kept(), before);
+      assert.deepEqual(newer.trouble, []);
+    });
+  });
+
   for (const [width, dark] of [
     [1280, false],
     [320, true],

@@ -2,7 +2,7 @@
 import type { Pipe, Transport } from '../shared/transport';
 import type { LessonFile } from './document';
 import type { Engine, State } from './engine';
-import { emptyLog, keepLog, type Log } from './log';
+import { emptyLog, holdLog, holdsLog, keepLog, recalledLog, type Log } from './log';
 import type { Component, Prediction } from './doors/door';
 import type { Teacher } from './teacher';
 
@@ -18,25 +18,35 @@ export class LocalServer implements Transport {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private isKept = true;
   private isStopped = false;
-  private readonly opened: Promise<void>;
+  private isElsewhere = false;
+  private opened: Promise<void>;
 
+  /** @param learner nothing where it is not known yet: what happens is neither kept nor told until `goOn`. */
   constructor(
     private readonly engine: Engine,
     private readonly file: LessonFile,
     log: Log | null,
-    private readonly learner: string,
-    private readonly onKept: (isKept: boolean) => void,
-    private readonly onNews: () => void, // something has happened that others may want to know
+    private learner: string | null,
+    readonly notices: () => string[],
+    private readonly on: {
+      kept: (isKept: boolean) => void;
+      news: () => void; // something has happened that others may want to know
+      consent: () => void;
+      elsewhere: (isElsewhere: boolean) => void; // another tab has the lesson now, or this one again
+    },
   ) {
     this.log = log ?? emptyLog(file);
+    this.opened = this.load();
+    window.addEventListener('storage', () => void this.isHere());
+  }
+
+  private async load(): Promise<void> {
+    if (this.learner !== null) holdLog(this.file, this.learner);
     const { setup, events } = this.log;
-    this.opened = engine
-      .ask<State>({ do: 'open', inputs: file.inputs, setup, events })
-      .then((state) => {
-        if (state.restored) Object.assign(this.log, state.restored);
-        this.take(state);
-        if (state.restored) this.onNews();
-      });
+    const state = await this.engine.ask<State>({ do: 'open', inputs: this.file.inputs, setup, events });
+    if (state.restored) Object.assign(this.log, state.restored);
+    this.take(state);
+    if (state.restored) this.on.news();
   }
 
   /** Rejects if the log cannot be gone on with. */
@@ -44,10 +54,38 @@ export class LocalServer implements Transport {
     return this.opened;
   }
 
-  // Nothing is kept any more: what is kept is about to be erased.
+  /** The lesson of this learner from now on, with what was kept of it, if anything was. */
+  async goOn(learner: string, log: Log | null): Promise<void> {
+    this.learner = learner;
+    if (log) this.log = log;
+    this.opened = this.load();
+    await this.opened;
+    this.keep();
+    this.show();
+    this.on.news();
+  }
+
+  // Nothing is kept any more: what is kept is about to be erased, or belongs to another tab.
   stop(): void {
     this.isStopped = true;
     clearTimeout(this.timer);
+  }
+
+  // Whether the lesson is still that of this tab. Otherwise what is kept is newer than what this tab knows.
+  private isHere(): boolean {
+    if (this.isElsewhere) return false;
+    if (this.isStopped || this.learner === null || holdsLog(this.file, this.learner)) return true;
+    this.stop();
+    this.isElsewhere = true;
+    this.pipe?.reply({ t: 'bye', reason: 'opened-elsewhere' });
+    this.on.elsewhere(true);
+    return false;
+  }
+
+  private async comeBack(learner: string): Promise<void> {
+    this.isElsewhere = this.isStopped = false;
+    await this.goOn(learner, recalledLog(this.file, learner));
+    this.on.elsewhere(false);
   }
 
   // All that has happened, sealed.
@@ -77,6 +115,7 @@ export class LocalServer implements Transport {
   open(): Pipe {
     const pipe = new LocalPipe((message) => void this.receive(pipe, message));
     this.pipe = pipe;
+    if (this.isElsewhere && this.learner !== null) this.opened = this.comeBack(this.learner);
     void this.opened.then(() => pipe.onopen?.());
     return pipe;
   }
@@ -105,6 +144,7 @@ export class LocalServer implements Transport {
   }
 
   private async command(pipe: LocalPipe, { t, id = '', body }: Message): Promise<void> {
+    if (!this.isHere()) return;
     if (this.log.messages.includes(id)) return pipe.reply({ t: 'ack', id });
     const state = await this.engine.ask<State>({ do: 'ask', type: t, body });
     if (!state.refusal && t !== 'draft') this.log.messages.push(id);
@@ -119,13 +159,21 @@ export class LocalServer implements Transport {
     if (state.lesson) this.log.lessons.push(state.lesson);
     if (state.events.length > 0) {
       this.log.events.push(...state.events);
-      const isKept = this.isStopped || keepLog(this.file, this.learner, this.log);
-      if (isKept !== this.isKept) this.onKept((this.isKept = isKept));
-      if (!this.isStopped && state.events.some((event) => (event as { type: string }).type !== 'draft')) this.onNews();
+      this.keep();
+      const types = (state.events as { type: string }[]).map(({ type }) => type);
+      if (types.includes('consented')) this.on.consent();
+      if (!this.isStopped && types.some((type) => type !== 'draft')) this.on.news();
     }
     clearTimeout(this.timer);
+    if (this.isStopped) return;
     if (state.teaching) this.later(0, 'teach');
     else if (state.due_us !== null) this.later(state.due_us / 1000 - Date.now(), 'tick');
+  }
+
+  private keep(): void {
+    if (this.learner === null || !this.isHere() || this.isStopped) return;
+    const isKept = keepLog(this.file, this.learner, this.log);
+    if (isKept !== this.isKept) this.on.kept((this.isKept = isKept));
   }
 
   private later(ms: number, what: 'teach' | 'tick'): void {

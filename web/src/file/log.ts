@@ -16,6 +16,26 @@ export interface Log {
 // Of one learner, where the system around the page says who it is.
 const place = (file: LessonFile, learner: string): string => `kith.lesson.${file.digest}${learner && `.${learner}`}`;
 
+const kOfVisit = 'kith.door.'; // what belongs to a visit to a learning system, which goes on
+const tab = uuid(); // of this page, not of the tab: a duplicated tab has the same storage
+
+/** From now on this tab keeps the lesson; those that have it open, too, do not any more. */
+export function holdLog(file: LessonFile, learner: string): void {
+  try {
+    localStorage.setItem(`${place(file, learner)}.tab`, tab);
+  } catch {
+    // nothing is kept
+  }
+}
+
+export function holdsLog(file: LessonFile, learner: string): boolean {
+  try {
+    return (localStorage.getItem(`${place(file, learner)}.tab`) ?? tab) === tab;
+  } catch {
+    return true;
+  }
+}
+
 export function emptyLog(file: LessonFile): Log {
   const setup = { ...file.setup, id: uuid() };
   return { schema: 'kith.lesson-log/1', kith: file.kith, study: file.digest, setup, events: [], lessons: [], messages: [] };
@@ -44,7 +64,7 @@ export function keepLog(file: LessonFile, learner: string, log: Log): boolean {
 export function eraseLog(file: LessonFile, learner: string): void {
   try {
     localStorage.removeItem(place(file, learner));
-    sessionStorage.clear();
+    for (const key of Object.keys(sessionStorage)) if (!key.startsWith(kOfVisit)) sessionStorage.removeItem(key);
   } catch {
     // nothing was kept
   }

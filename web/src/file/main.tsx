@@ -9,9 +9,10 @@ import { installTheme } from '../shared/theme';
 import { useTransport } from '../shared/transport';
 import { Again } from './again';
 import { readDocument } from './document';
-import type { Door } from './doors/door';
+import { keep, recall } from '../live/storage';
+import { isLoadedAgain, type Door, type Opening } from './doors/door';
 import { unpacked } from './doors/packed';
-import { findDoor, Reporter, type DoorTrouble } from './doors/reporter';
+import { findDoor, isFramed, Reporter, type DoorTrouble } from './doors/reporter';
 import { Engine } from './engine';
 import { LocalServer } from './local_server';
 import { emptyLog, eraseLog, recalledLog, type Log } from './log';
@@ -28,7 +29,7 @@ function nameOf(title: string): string {
 
 interface BarProps {
   server: LocalServer;
-  learner: string;
+  reporter: Reporter;
   status: Status;
   onResearch: () => void;
 }
@@ -39,17 +40,24 @@ const isForResearchers = new URLSearchParams(location.search).has('researcher');
 const isOver = (stage: string): boolean => stage === 'debrief' || stage === 'ended';
 
 // What a server would do for people: hand their answers on, and forget them.
-function Bar({ server, learner, status, onResearch }: BarProps): JSX.Element {
-  const { isKept, trouble } = status;
+function Bar({ server, reporter, status, onResearch }: BarProps): JSX.Element {
+  const { isKept, trouble, door } = status;
   const [isSure, setSure] = useState(false);
   const save = async (): Promise<void> => {
     const text = JSON.stringify(await server.export());
     download(new Blob([text], { type: 'application/json' }), `${nameOf(file.title)}-answers.json`);
   };
-  const erase = (): void => {
+  const erase = async (): Promise<void> => {
     server.stop();
-    eraseLog(file, learner);
+    await reporter.end('again');
+    eraseLog(file, door?.learner ?? '');
     location.reload();
+  };
+  const leave = async (): Promise<void> => {
+    server.stop();
+    const next = await reporter.end('for good');
+    if (/^https?:/.test(next)) location.assign(next);
+    else if (page) render(<Notice title={t('file.leave')} text={t('file.left')} />, page);
   };
   return (
     <footer class="file-bar no-print">
@@ -58,27 +66,28 @@ function Bar({ server, learner, status, onResearch }: BarProps): JSX.Element {
           {t(`door.${trouble}`)}
         </p>
       )}
-      <p>{t(!isKept ? 'file.not_kept' : file.package || file.origins.length > 0 ? 'file.told' : 'file.kept')}</p>
+      <p>{t(isKept ? `file.${toldBy(status)}` : 'file.not_kept')}</p>
       <Button onClick={() => void save()}>{t('file.save')}</Button>
       {isSure ? (
         <>
           <span role="alert">{t('file.sure')}</span>
-          <Button onClick={erase}>{t('file.erase')}</Button>
+          <Button onClick={() => void erase()}>{t('file.erase')}</Button>
           <Button onClick={() => setSure(false)}>{t('file.stay')}</Button>
         </>
       ) : (
         <Button onClick={() => setSure(true)}>{t('file.again')}</Button>
       )}
+      {door && <Button onClick={() => void leave()}>{t('file.leave')}</Button>}
       {(isForResearchers || isOver(server.stage)) && <Button onClick={onResearch}>{t('file.researcher')}</Button>}
     </footer>
   );
 }
 
 // In place of the lesson, with what to do.
-function Trouble({ text, again }: { text: string; again?: () => void }): JSX.Element {
+function Notice({ title, text, again }: { title: string; text: string; again?: () => void }): JSX.Element {
   return (
     <main id="main">
-      <h1>{t('trouble.title')}</h1>
+      <h1>{title}</h1>
       <p>{text}</p>
       {again && <Button onClick={again}>{t('file.erase')}</Button>}
     </main>
@@ -87,10 +96,22 @@ function Trouble({ text, again }: { text: string; again?: () => void }): JSX.Ele
 
 interface Status {
   isKept: boolean;
+  isElsewhere: boolean;
   trouble: DoorTrouble;
+  opening: Opening | null;
+  door: Door | null; // once it is open
 }
 
-function Lesson({ server, learner, status }: Omit<BarProps, 'onResearch'>): JSX.Element {
+// Who is told how the lesson goes.
+const toldBy = ({ opening }: Status): 'kept' | 'reported' | 'told' => (opening ? 'reported' : isFramed(file) ? 'told' : 'kept');
+
+// What the page does with what people do, as it is opened here: whoever reads it has told nobody anything yet.
+function notices({ opening }: Status): string[] {
+  const told = [...(opening ? [t(`data.${opening.system}`)] : []), ...(isFramed(file) ? [t('data.frame', { origins: file.origins.join(', ') })] : [])];
+  return [...told, t(told.length > 0 ? 'data.kept' : 'data.alone')];
+}
+
+function Lesson({ server, reporter, status }: Omit<BarProps, 'onResearch'>): JSX.Element {
   const [isResearch, setResearch] = useState(false);
   const [, setStage] = useState(server.stage);
   useLayoutEffect(() => {
@@ -102,13 +123,9 @@ function Lesson({ server, learner, status }: Omit<BarProps, 'onResearch'>): JSX.
   return (
     <>
       <App />
-      <Bar server={server} learner={learner} status={status} onResearch={() => setResearch(true)} />
+      {!status.isElsewhere && <Bar server={server} reporter={reporter} status={status} onResearch={() => setResearch(true)} />}
     </>
   );
-}
-
-function show(server: LocalServer, learner: string, status: Status): void {
-  if (page) render(<Lesson server={server} learner={learner} status={status} />, page);
 }
 
 // Of what this browser and the learning system have kept, the longer one.
@@ -128,19 +145,40 @@ async function begin(): Promise<void> {
     return;
   }
   let isShown = false;
-  const { door, trouble } = await findDoor(file);
-  learner = door?.learner ?? '';
-  const status: Status = { isKept: true, trouble };
+  const opening = findDoor();
+  const status: Status = { isKept: true, isElsewhere: false, trouble: !opening && file.package ? 'none' : null, opening, door: null };
   const update = (part: Partial<Status>): void => {
     Object.assign(status, part);
-    if (isShown) show(server, learner, status);
+    if (isShown && page) render(<Lesson server={server} reporter={reporter} status={status} />, page);
   };
-  const reporter = new Reporter(file, door, (found) => update({ trouble: found }));
-  const log = await longestLog(door);
+  const reporter = new Reporter(file, (trouble) => update({ trouble }));
+  const connect = async (): Promise<void> => {
+    if (!opening || status.door) return;
+    try {
+      status.door = await opening.open();
+      reporter.connect(status.door);
+      keep(kAgreed, file.digest);
+    } catch (error) {
+      console.warn(String(error));
+      status.trouble = 'refused';
+    }
+    learner = status.door?.learner ?? '';
+    const log = await longestLog(status.door);
+    hasLog = log !== null;
+    await server.goOn(learner, log);
+    update({});
+  };
+  const log = opening ? null : await longestLog(null);
   hasLog = log !== null;
-  const engine = Engine.start();
-  const server: LocalServer = new LocalServer(engine, file, log, learner, (isKept) => update({ isKept }), () => void reporter.news(server));
+  const server: LocalServer = new LocalServer(Engine.start(), file, log, opening ? null : '', () => notices(status), {
+    kept: (isKept) => update({ isKept }),
+    news: () => void reporter.news(server),
+    consent: () => void connect().catch(giveUp),
+    elsewhere: (isElsewhere) => update({ isElsewhere }),
+  });
   await server.ready();
+  // Whoever has agreed on this page before it was loaded again is not asked again.
+  if (server.stage !== 'consent' || (isLoadedAgain() && recall(kAgreed) === file.digest)) await connect();
   useTransport(server);
   // For pages around this one and for tests: what has happened, and the table of moves of a world.
   Object.assign(window, { kithLesson: { log: () => server.export(), world: (key: string) => server.world(key) } });
@@ -149,9 +187,10 @@ async function begin(): Promise<void> {
   if (skip) skip.textContent = t('page.skip');
   page.replaceChildren();
   isShown = true;
-  show(server, learner, status);
+  update({});
 }
 
+const kAgreed = 'door.agreed';
 let learner = ''; // as the learning system knows them
 let hasLog = false;
 function start(): void {
@@ -170,8 +209,9 @@ function giveUp(error: unknown): void {
     location.reload();
   };
   page.replaceChildren();
-  if (hasLog) render(<Trouble text={t('file.lost')} again={again} />, page);
-  else render(<Trouble text={t('file.broken')} />, page);
+  const title = t('trouble.title');
+  if (hasLog) render(<Notice title={title} text={t('file.lost')} again={again} />, page);
+  else render(<Notice title={title} text={t('file.broken')} />, page);
 }
 
 // A report that brings the engine along asks for one thing only.

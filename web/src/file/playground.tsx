@@ -62,8 +62,8 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
     }
   };
   const take = async (): Promise<void> => {
-    const server = new LocalServer(engine, { ...file, inputs }, null, '', () => undefined, () => undefined);
-    server.stop(); // nothing of a playground is kept
+    const nothing = (): void => undefined;
+    const server = new LocalServer(engine, { ...file, inputs }, null, null, () => [], { kept: nothing, news: nothing, consent: nothing, elsewhere: nothing });
     await server.ready();
     useTransport(server);
     setLesson((count) => count + 1);

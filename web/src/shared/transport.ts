@@ -14,6 +14,8 @@ export interface Transport {
   open: () => Pipe;
   /** A document of the server; throws if it cannot be had. */
   get: (path: string, token?: string) => Promise<unknown>;
+  /** What this page does with what people do, beyond the text that they agree to. */
+  notices: () => string[];
 }
 
 const network: Transport = {
@@ -24,6 +26,7 @@ const network: Transport = {
     if (!reply.ok) throw new Error(`status ${reply.status}`);
     return reply.json();
   },
+  notices: () => [],
 };
 
 let current = network;

@@ -1,6 +1,7 @@
 // A learning system that speaks cmi5: it opens this page with the address of a store for xAPI statements.
+import { keep, recall } from '../../live/storage';
 import { uuid } from '../../shared/uuid';
-import { isLearned, scoreOf, type Door, type Prediction, type Progress } from './door';
+import { isLearned, scoreOf, VisitIsOver, type Door, type Opening, type Prediction, type Progress } from './door';
 
 const kVersion = '1.0.3';
 const kCategory = 'https://w3id.org/xapi/cmi5/context/categories/';
@@ -22,15 +23,18 @@ interface LaunchData {
   contextTemplate: { contextActivities?: Record<string, unknown>; extensions?: Record<string, unknown> } & Record<string, unknown>;
   masteryScore?: number;
   launchMode: 'Normal' | 'Browse' | 'Review';
+  returnURL?: string;
 }
 
 // What has been told before, over all visits.
 interface Told {
   log: string;
-  predictions: number;
+  predictions: number; // of the lesson as it was begun last
   components: string[];
-  isOver: boolean;
+  hasPassed: boolean;
+  hasCompleted: boolean;
 }
+const kNothing = { log: '', predictions: 0, components: [] };
 
 const duration = (ms: number): string => `PT${(ms / 1000).toFixed(2)}S`;
 
@@ -46,8 +50,8 @@ class Store {
   // The system hands the token out once: it is kept for a reload.
   static async open(query: URLSearchParams): Promise<Store> {
     const get = (name: string): string => query.get(name) ?? '';
-    const place = `kith.cmi5.${get('registration')}.${get('fetch')}`;
-    let token = recall(place);
+    const place = `door.token.${get('registration')}.${get('fetch')}`;
+    let token = recall<string>(place);
     if (!token) {
       const reply = await fetch(get('fetch'), { method: 'POST' });
       const answer = (await reply.json()) as { 'auth-token'?: string; 'error-text'?: string };
@@ -71,6 +75,12 @@ class Store {
     return `activities/state?${query.toString()}`;
   }
 
+  // What the system asks of every lesson before it says anything; a lesson has one language and no sound.
+  async readPreferences(): Promise<void> {
+    const query = new URLSearchParams({ agent: JSON.stringify(this.actor), profileId: 'cmi5LearnerPreferences' });
+    await this.request(`agents/profile?${query.toString()}`, { method: 'GET' });
+  }
+
   async state(name: string): Promise<string> {
     const reply = await this.request(this.statePath(name), { method: 'GET' });
     return reply.status === 404 ? '' : reply.text();
@@ -83,22 +93,6 @@ class Store {
   async tell(statements: object[], isLast = false): Promise<void> {
     if (statements.length === 0) return;
     await this.request('statements', { method: 'POST', body: JSON.stringify(statements), headers: { 'Content-Type': 'application/json' }, keepalive: isLast });
-  }
-}
-
-function recall(name: string): string {
-  try {
-    return sessionStorage.getItem(name) ?? '';
-  } catch {
-    return '';
-  }
-}
-
-function keep(name: string, text: string): void {
-  try {
-    sessionStorage.setItem(name, text);
-  } catch {
-    // a reload needs a new launch then
   }
 }
 
@@ -144,30 +138,48 @@ class Statements {
   }
 }
 
-export async function openCmi5(): Promise<Door | null> {
+const launched = (): URLSearchParams | null => {
   const query = new URLSearchParams(location.search);
-  if (!['endpoint', 'fetch', 'actor', 'registration', 'activityId'].every((name) => query.has(name))) return null;
+  return ['endpoint', 'fetch', 'actor', 'registration', 'activityId'].every((name) => query.has(name)) ? query : null;
+};
+
+export async function openCmi5(): Promise<Door | null> {
+  const query = launched();
+  if (!query) return null;
   const begun = Date.now();
   const store = await Store.open(query);
   const launch = JSON.parse(await store.state('LMS.LaunchData')) as LaunchData;
   const isNormal = launch.launchMode === 'Normal'; // others may only look
   const statements = new Statements(store, launch);
   const kept = await store.state('kith');
-  let told: Told = kept ? (JSON.parse(kept) as Told) : { log: '', predictions: 0, components: [], isOver: false };
-  const session = launch.contextTemplate.extensions?.[kSession];
-  const initialized = `kith.cmi5.initialized.${String(session)}`;
+  let told: Told = { ...kNothing, hasPassed: false, hasCompleted: false, ...(kept ? (JSON.parse(kept) as Partial<Told>) : {}) };
+  const session = String(launch.contextTemplate.extensions?.[kSession]);
+  const terminated = `door.terminated.${session}`;
+  const failed = `door.failed.${session}`; // told of a failure, a visit cannot be told of a pass any more
+  await store.readPreferences();
+  const initialized = `door.initialized.${session}`;
   if (!recall(initialized)) {
     await store.tell([statements.of('initialized', { isDefined: true })]); // once a session
-    keep(initialized, 'yes');
+    keep(initialized, true);
   }
-  const over = (progress: Progress): object[] => {
+  let waiting: object[] = []; // statements that were not taken yet: the same ones are sent again
+  let isFinished = false;
+  const judge = (progress: Progress): void => {
     const scaled = scoreOf(progress) ?? 0;
-    const hasPassed = launch.masteryScore === undefined ? isLearned(progress) : scaled >= launch.masteryScore;
+    const success = launch.masteryScore === undefined ? isLearned(progress) : scaled >= launch.masteryScore;
     const time = duration(Date.now() - begun);
-    return [
-      statements.of(hasPassed ? 'passed' : 'failed', { isDefined: true, result: { success: hasPassed, score: { scaled }, duration: time } }),
-      statements.of('completed', { isDefined: true, result: { completion: true, duration: time } }),
-    ];
+    if (!told.hasPassed && !recall(failed)) {
+      waiting.push(statements.of(success ? 'passed' : 'failed', { isDefined: true, result: { success, score: { scaled }, duration: time } }));
+      told.hasPassed = success;
+      if (!success) keep(failed, true);
+    }
+    if (!told.hasCompleted) waiting.push(statements.of('completed', { isDefined: true, result: { completion: true, duration: time } }));
+    told.hasCompleted = true;
+  };
+  const terminate = async (): Promise<void> => {
+    if (recall(terminated)) return;
+    keep(terminated, true);
+    await store.tell([statements.of('terminated', { isDefined: true, result: { duration: duration(Date.now() - begun) } })], true);
   };
   return {
     learner: JSON.stringify(store.actor),
@@ -175,18 +187,33 @@ export async function openCmi5(): Promise<Door | null> {
     room: Infinity,
     report: async (progress, log) => {
       if (!isNormal) return;
+      if (recall(terminated)) throw new VisitIsOver('terminated');
       const { predictions, components } = progress;
-      const fresh = [
+      waiting.push(
         ...predictions.slice(told.predictions).map((one) => statements.prediction(one)),
         ...components.flatMap(({ name, status }, i) => (status !== 'open' && told.components[i] !== status ? [statements.component(name, i, status)] : [])),
-        ...(progress.isFinished && !told.isOver ? over(progress) : []),
-      ];
-      await store.tell(fresh);
-      told = { log: log ?? told.log, predictions: predictions.length, components: components.map(({ status }) => status), isOver: told.isOver || progress.isFinished };
+      );
+      if (progress.isFinished) judge(progress);
+      told = { ...told, log: log ?? told.log, predictions: predictions.length, components: components.map(({ status }) => status) };
+      await store.tell(waiting);
+      waiting = [];
       await store.setState('kith', JSON.stringify(told));
+      isFinished = progress.isFinished;
     },
+    restart: async () => {
+      told = { ...told, ...kNothing };
+      isFinished = false;
+      if (isNormal && !recall(terminated)) await store.setState('kith', JSON.stringify(told));
+    },
+    // A page that is loaded again says more, so that only what is over ends with the page.
     leave: () => {
-      void store.tell([statements.of('terminated', { isDefined: true, result: { duration: duration(Date.now() - begun) } })], true).catch(() => undefined);
+      if (isFinished) void terminate().catch(() => undefined);
+    },
+    close: async () => {
+      await terminate();
+      return launch.returnURL ?? '';
     },
   };
 }
+
+export const findCmi5 = (): Opening | null => (launched() ? { system: 'cmi5', open: async () => (await openCmi5()) as Door } : null);

@@ -38,6 +38,22 @@ export interface Door {
   room: number;
   /** Tells how far the learner is and keeps what a later visit goes on from, unless that is null. Rejects if it was not taken. */
   report: (progress: Progress, kept: string | null) => Promise<void>;
-  /** The page is left. */
+  /** Forgets what was kept of the lesson: the learner starts again, on this page. */
+  restart: () => Promise<void>;
+  /** The page is left or loaded again. */
   leave: () => void;
+  /** The learner leaves for good. Gives the address of where to go then, or nothing. */
+  close: () => Promise<string>;
 }
+
+/** A learning system that was found. Nothing was read from it or told to it. */
+export interface Opening {
+  system: 'scorm' | 'cmi5';
+  open: () => Promise<Door>;
+}
+
+/** The system has ended this visit: what happens now is told in the next one. */
+export class VisitIsOver extends Error {}
+
+/** Whether the page that was here before in this tab is here again. */
+export const isLoadedAgain = (): boolean => (performance.getEntriesByType('navigation')[0] as PerformanceNavigationTiming | undefined)?.type === 'reload';

@@ -5,6 +5,7 @@ import { download } from '../../shared/download';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
 import { t } from '../../shared/texts';
+import { transport } from '../../shared/transport';
 
 type Shown = NonNullable<ScreenProps['view']['consent']>;
 
@@ -13,7 +14,8 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
   const [isMissing, setMissing] = useState(false);
   const [declines, setDeclines] = useState(false);
   const off = connection.isPending('consent');
-  const { version, paragraphs } = consent;
+  const { version } = consent;
+  const paragraphs = [...consent.paragraphs, ...transport().notices()];
   const agree = (): void => {
     setMissing(!agrees);
     if (agrees) connection.send('consent', { accept: true, version });
