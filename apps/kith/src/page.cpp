@@ -42,6 +42,10 @@ void write_page(std::string_view what, const std::string& page, const std::strin
     console.print(page);
     return;
   }
+  const auto extension = std::filesystem::path{out}.extension();
+  if (!extension.empty() && extension != ".html" && extension != ".htm") {
+    refuse(fmt::format("the {} is a page, not a file '*{}'", what, extension.string()), "name a file.html with -o");
+  }
   write_file_atomically(out, page, FolderSync::kNow, link);
   constexpr double kKilobyte = 1e3;
   console.info(fmt::format("{} in {} ({:.0f} kB); open it in a browser (no network needed)", what, out,
