@@ -54,7 +54,10 @@ Json error_reply(const Error& error) {
 
 std::string text_of(const Json& reply) { return reply.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
-constexpr const char* kFolder = "/study";
+#ifndef KITH_LESSON_FOLDER
+#define KITH_LESSON_FOLDER "/study"  // of the page's own files
+#endif
+const std::string kFolder = KITH_LESSON_FOLDER;
 const std::string kPerson = "seat:1";
 
 class Engine {
@@ -82,7 +85,7 @@ class Engine {
       fs::create_directories((fs::path{kFolder} / name).parent_path());
       std::ofstream{fs::path{kFolder} / name, std::ios::binary} << text.get<std::string>();
     }
-    const auto reading = load_study(std::string{kFolder} + "/study.toml");
+    const auto reading = load_study(kFolder + "/study.toml");
     if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
     study_ =
         make_live_study(*reading.study, std::make_shared<const Atlas>(*reading.domain), kFolder, reading.domain_text);
@@ -174,7 +177,7 @@ class Engine {
 
   void happen(const RoomEvent& event, const TaughtLesson* lesson = nullptr) {
     const bool ends_period = event.get<happening::LessonChosen>() != nullptr && room_->session().periods() > 0;
-    if (ends_period) past_.push_back(picture());
+    if (ends_period) keep_picture();
     room_->apply(event, *cache_, lesson);
     seal_ = sealed(seal_, event);
     happened_.push_back(to_json(event));

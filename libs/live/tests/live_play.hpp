@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,11 +89,14 @@ class Play {
   [[nodiscard]] std::shared_ptr<const LiveStudy> study_of_room() const { return study_; }
   [[nodiscard]] TeachingCache& cache() { return cache_; }
   [[nodiscard]] const std::vector<RoomEvent>& events() const { return events_; }
+  /// All that were sent, refused ones too.
+  [[nodiscard]] const std::vector<RoomCommand>& commands() const { return commands_; }
   [[nodiscard]] std::int64_t now() const { return now_us_; }
 
   /// Sends a command and applies what it leads to. @return the refusal's reason; empty if it was accepted.
   std::string send(const std::string& actor, const std::string& type, Json body = Json::object()) {
-    const auto decision = room_.decide({actor, type, std::move(body), "id"}, now_us_);
+    commands_.push_back({actor, type, std::move(body), "id"});
+    const auto decision = room_.decide(commands_.back(), now_us_);
     if (decision.refusal) return decision.refusal->reason;
     for (const auto& event : decision.events) happen(event);
     settle();
@@ -249,7 +254,15 @@ class Play {
   void apply(const RoomEvent& event, const TaughtLesson* lesson = nullptr) {
     room_.apply(event, cache_, lesson);
     events_.push_back(event);
+    if (on_event) on_event();
   }
+  /// The server ends, and what is stored is computed again.
+  void restart() { room_ = replay(study_, room_.setup(), events_, cache_); }
+  /// Called after everything that happened.
+  std::function<void()> on_event;
+  /// What whoever looks wants to see besides the lesson.
+  std::size_t num_runners_up = 0;
+
   void pass(double seconds) { now_us_ += static_cast<std::int64_t>(seconds * 1e6); }
 
  private:
@@ -262,9 +275,9 @@ class Play {
   // Equal keys mean equal lessons, so plays of the same study share them; a replay chooses its own. Studies are kept:
   // of one that was freed, the next would take the address and with it the lessons.
   const TaughtLesson& taught(const TeachingTask& task) {
-    static std::map<std::pair<std::shared_ptr<const LiveStudy>, std::string>, TaughtLesson> known;
-    auto& lesson = known[{study_, task.key()}];
-    if (lesson.key.empty()) lesson = task.run(cache_);
+    static std::map<std::tuple<std::shared_ptr<const LiveStudy>, std::string, std::size_t>, TaughtLesson> known;
+    auto& lesson = known[{study_, task.key(), num_runners_up}];
+    if (lesson.key.empty()) lesson = task.run(cache_, num_runners_up);
     return lesson;
   }
 
@@ -272,6 +285,7 @@ class Play {
   TeachingCache cache_;
   Room room_;
   std::vector<RoomEvent> events_;
+  std::vector<RoomCommand> commands_;
   std::int64_t now_us_ = 1'700'000'000'000'000;
   bool teacher_works_ = true;
   std::size_t num_waiting_ = 0;
