@@ -169,6 +169,14 @@ KnowledgeComponent AtlasBuilder::component(std::vector<std::size_t> features, st
   return result;
 }
 
+std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeComponent> components) {
+  const auto& weighed = components.back().features;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    if (std::ranges::find(weighed, k) == weighed.end()) return k;
+  }
+  return domain.num_features() - 1;
+}
+
 std::string masked_names(const Domain& domain, const KnowledgeComponent& component) {
   std::string text;
   for (std::size_t i = 0; i < component.masked.size(); ++i) {

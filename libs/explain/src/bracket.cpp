@@ -74,14 +74,6 @@ std::string range_in_words(const Wording& unit, const std::optional<double>& lea
 
 }  // namespace
 
-std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeComponent> components) {
-  const auto& weighed = components.back().features;
-  for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    if (std::ranges::find(weighed, k) == weighed.end()) return k;
-  }
-  return domain.num_features() - 1;
-}
-
 std::vector<Bracket> brackets(const Domain& domain, std::span<const HalfSpace> known,
                               std::span<const std::size_t> features, std::size_t reference) {
   Cone region{domain.num_features()};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ struct KnowledgeComponent {
 
 /// The names of the masked features: "recharge", "rubble or smoke", "" for none.
 [[nodiscard]] std::string masked_names(const Domain& domain, const KnowledgeComponent& component);
+
+/// The feature that every component weighs the others against: the one that the last component does not name.
+[[nodiscard]] std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeComponent> components);
 
 }  // namespace kith

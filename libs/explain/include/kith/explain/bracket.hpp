@@ -30,9 +30,6 @@ struct Bracket {
   friend bool operator==(const Bracket&, const Bracket&) = default;
 };
 
-/// The feature that every component weighs the others against: the one that the last component does not name.
-[[nodiscard]] std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeComponent> components);
-
 /// What half-spaces together say about each of some features. The ends are exact: those of the projection of the region
 /// { w : every half-space holds }, by its generators. Nothing about features of which neither end is known, nor about
 /// any of them unless the region tells whether the reference is a cost or a gain.
