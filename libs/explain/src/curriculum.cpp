@@ -251,7 +251,7 @@ void require_something_to_teach(const Atlas& atlas) {
   const VisitedStarts nothing{atlas.num_states()};
   for (const auto& component : atlas.knowledge_components()) {
     Unit unit{{}, domain.prior()};
-    complete_unit(cache, unit, component, {}, nothing, 1, RandomStream{0});
+    complete_unit(cache, unit, component, {}, nothing, {.max_demonstrations = 1}, RandomStream{0});
     if (!unit.demonstrations.empty()) return;
   }
   throw nothing_to_teach(atlas, kUntold);

@@ -128,6 +128,7 @@ class Converter {
               {"running_area_sr", lesson.running_area_sr},
               {"gain", lesson.gain},
               {"untested", lesson.untested},
+              {"tests_demonstrated", lesson.tests_demonstrated},
               {"tests", tests},
               {"before", to_json(period.before)},
               {"after", to_json(period.after)},

@@ -178,6 +178,9 @@ class TranscriptWriter {
     line(fmt::format("    area {:.4f} sr; with components learned before {:.4f} sr; log gain {:.4f}", lesson.area_sr,
                      lesson.running_area_sr, lesson.gain));
     if (lesson.untested > 0) line(fmt::format("    constraints that cannot be tested: {}", lesson.untested));
+    if (lesson.tests_demonstrated > 0) {
+      line(fmt::format("    tests that were demonstrated, since nothing else is left: {}", lesson.tests_demonstrated));
+    }
   }
 
   void test(const TranscriptPeriod& period, std::size_t t) {

@@ -108,8 +108,8 @@ TEST(StudyTables, MatchTheHandWrittenOnes) {
       "joint,NP,2,4,1,N,0.7,0.01,0.02,0.25,3,4,2\n");
   EXPECT_EQ(tables.at("periods.csv"),
             "strategy,composition,replicate,team,period,kc,source,demonstrations,area_sr,running_area_sr,tests,"
-            "all_correct,excluded,untested,gain,p_bec_common,p_bec_joint\n"
-            "joint,NP,2,4,1,1,member 2,2,0.5,0.25,1,false,0,0,1.5,0.1,0.2\n");
+            "all_correct,excluded,untested,tests_demonstrated,gain,p_bec_common,p_bec_joint\n"
+            "joint,NP,2,4,1,1,member 2,2,0.5,0.25,1,false,0,0,0,1.5,0.1,0.2\n");
   EXPECT_EQ(
       tables.at("responses.csv"),
       "strategy,composition,replicate,team,period,kc,test,member,mdp,start,correct,regret,answer,constraint,covered\n"

@@ -213,6 +213,7 @@ class TeamRun {
              std::all_of(present.begin(), present.end(), [&](auto i) -> bool { return feedback.all_correct[i]; }),
          .excluded = feedback.excluded.size(),
          .untested = lesson.untested,
+         .tests_demonstrated = lesson.tests_demonstrated,
          .gain = lesson.gain,
          .forecast = what_is_left(session),
          .p_bec = std::move(p_bec)});

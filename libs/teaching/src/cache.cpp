@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kith/domains/judgement.hpp"
 #include "kith/teaching/teaching_options.hpp"
 
 namespace kith {
@@ -37,6 +38,23 @@ const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {
   constexpr std::size_t kPriorPoints = 1000;  // to find out how difficult starts are
   if (!exam_) exam_ = std::make_shared<const Exam>(behaviours(), cover(atlas_->prior_cone(), kPriorPoints));
   return exam_;
+}
+
+bool TeachingCache::is_shortest_wrong(StartIndex test) {
+  is_shortest_wrong_.resize(atlas_->num_states());
+  auto& known = is_shortest_wrong_[test.value()];
+  if (known) return *known;
+  const auto& domain = atlas_->domain();
+  const auto reference = reference_feature(domain, atlas_->knowledge_components());
+  known = false;
+  if (domain.weights().integer[reference] >= 0) return *known;
+  const auto only =
+      -Eigen::VectorXd::Unit(static_cast<Eigen::Index>(domain.num_features()), static_cast<Eigen::Index>(reference));
+  const auto& robot = atlas_->feature_counts(test);
+  const auto shortest = behaviours().answer(test, behaviours().locate(Direction{only}));
+  // Who is shorter by anything: of equally short paths people may take any.
+  known = shortest && (*shortest)[reference] < robot[reference] && !judge_path(domain, robot, *shortest).is_right;
+  return *known;
 }
 
 ImitationTable& TeachingCache::imitation() {

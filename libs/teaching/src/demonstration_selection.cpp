@@ -272,7 +272,7 @@ ImaginedPeople who_miss(TeachingCache& cache, const KnowledgeComponent& componen
 }  // namespace
 
 void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& component,
-                   std::span<const HalfSpace> shown_before, VisitedStarts visited, std::size_t max_demonstrations,
+                   std::span<const HalfSpace> shown_before, VisitedStarts visited, const SelectionOptions& options,
                    RandomStream random) {
   auto& regions = cache.regions();
   auto taught = regions.minimal(cache.numbers_of(unit.taught_region));
@@ -281,16 +281,21 @@ void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& c
   const VisitedStarts nothing{cache.atlas().num_states()};
   Selection fresh{cache, component, visited};
   Selection any{cache, component, nothing};
-  const std::size_t most = max_demonstrations;
+  const std::size_t most = options.max_demonstrations;
   for (std::uint64_t step = 0; most == 0 || unit.demonstrations.size() < most; ++step) {
     std::optional<Demonstration> next;
     ImaginedPeople people;
-    for (const auto how : kMissed) {
-      people = who_miss(cache, component, shown, how);
-      if (people.cells.empty()) break;
-      next = fresh.next(people.cells, shown, unit.demonstrations, random.split(step));
-      if (!next) next = any.next(people.cells, shown, unit.demonstrations, random.split(step));
-      if (next) break;
+    for (const bool again : {false, true}) {
+      for (const auto how : kMissed) {
+        people = who_miss(cache, component, shown, how);
+        if (people.cells.empty()) break;
+        next = (again ? any : fresh).next(people.cells, shown, unit.demonstrations, random.split(step));
+        if (!next && !options.avoids_repeats) {
+          next = any.next(people.cells, shown, unit.demonstrations, random.split(step));
+        }
+        if (next) break;
+      }
+      if (next || people.cells.empty()) break;
     }
     if (!next && !people.cells.empty() && teaches_whole_components(cache.atlas())) {
       const auto open = open_facets(cache, component.constraints, shown);
@@ -333,8 +338,8 @@ void UnitSelector::complete(Unit& unit, RandomStream random) {
     shown.insert(shown.end(), lesson.taught.begin(), lesson.taught.end());
   }
   if (unit.demonstrations.empty()) unit.taught_region.assign(view_->taught_region.begin(), view_->taught_region.end());
-  complete_unit(*cache_, unit, view_->atlas.knowledge_components()[view_->component], shown, view_->visited,
-                options_.max_demonstrations, random);
+  complete_unit(*cache_, unit, view_->atlas.knowledge_components()[view_->component], shown, view_->visited, options_,
+                random);
 }
 
 }  // namespace kith

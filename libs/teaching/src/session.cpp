@@ -252,7 +252,8 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
                       {.counterfactuals = options_.counterfactuals,
                        .sampling = options_.sampling,
                        .likelihood = belief.options().likelihood,
-                       .max_demonstrations = options_.max_demonstrations}};
+                       .max_demonstrations = options_.max_demonstrations,
+                       .avoids_repeats = options_.avoids_repeats}};
   auto strategy = strategy_->clone();
   auto proposal = strategy->propose(seen, select, random.split("demonstrations"));
   if (proposal.unit.demonstrations.empty() && last == nullptr) select.complete(proposal.unit, random.split("open"));
@@ -276,12 +277,22 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
   lesson.source = std::move(proposal.source);
   lesson.tests.clear();
   const auto examined = to_examine(lesson, cache);
+  VisitedStarts demonstrated{atlas_->num_states()};
+  for (const auto& period : history_) {
+    for (const auto& shown : period.lesson.demonstrations) demonstrated.insert(shown.demo);
+  }
+  for (const auto& shown : lesson.demonstrations) demonstrated.insert(shown.demo);
+  const TestPreferences preferences{cache, demonstrated, options_.avoids_shortest};
   for (std::size_t set = 0; set < options_.duplicate_sets; ++set) {
-    auto choice = select_tests(*atlas_, atlas_->knowledge_components()[component], lesson.demonstrations, examined,
-                               next.visited, random.split("tests").split(set));
+    auto choice =
+        select_tests(*atlas_, atlas_->knowledge_components()[component], lesson.demonstrations, examined, next.visited,
+                     random.split("tests").split(set), options_.avoids_repeats ? &preferences : nullptr);
     lesson.untested = choice.untested;
     lesson.tests.insert(lesson.tests.end(), choice.tests.begin(), choice.tests.end());
   }
+  for (auto& test : lesson.tests) test.is_shortest_wrong = cache.is_shortest_wrong(test.demo);
+  lesson.tests_demonstrated = static_cast<std::size_t>(
+      std::ranges::count_if(lesson.tests, [&](const Test& test) { return demonstrated.contains(test.demo); }));
   return next;
 }
 

@@ -1,6 +1,7 @@
 #include "kith/teaching/test_selection.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -31,12 +32,13 @@ double cosine(const HalfSpace& a, const HalfSpace& b) {
 class TestSelection {
  public:
   TestSelection(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
-                VisitedStarts& visited, const RandomStream& random)
+                VisitedStarts& visited, const RandomStream& random, const TestPreferences* preferences)
       : atlas_{atlas},
         component_{component},
         unit_{unit},
         visited_{visited},
         random_{random},
+        preferences_{preferences},
         is_shown_(atlas.num_states(), false),
         num_tested_(atlas.num_states(), 0) {
     for (const auto demo : visited.in_order()) is_shown_[atlas.trajectory_class(demo)] = true;
@@ -91,15 +93,24 @@ class TestSelection {
 
   [[nodiscard]] std::vector<StartIndex> usable(ConstraintIndex c) const {
     std::vector<StartIndex> found;
-    const auto add = [&](bool also_shown) {
-      for (const auto demo : atlas_.tests_for(c)) {
-        if (!also_shown && is_shown_[atlas_.trajectory_class(demo)]) continue;
-        if (is_in_component(demo)) found.push_back(demo);
-      }
-    };
-    add(false);
-    if (found.empty()) add(true);
+    auto least = Met::kDemonstrated;
+    for (const auto demo : atlas_.tests_for(c)) {
+      if (!is_in_component(demo)) continue;
+      const auto met = how_met(demo);
+      if (met > least) continue;
+      if (met < least) found.clear();
+      least = met;
+      found.push_back(demo);
+    }
     return found;
+  }
+
+  // How people met what they are to be asked about: the less the better.
+  enum class Met { kNever, kPicture, kTested, kDemonstrated };
+  [[nodiscard]] Met how_met(StartIndex demo) const {
+    if (!is_shown_[atlas_.trajectory_class(demo)]) return Met::kNever;
+    if (preferences_ == nullptr || preferences_->demonstrated.contains(demo)) return Met::kDemonstrated;
+    return visited_.contains(demo) ? Met::kTested : Met::kPicture;
   }
 
   // The start that tests most of the open constraints, if it tests at least two; they are closed.
@@ -141,8 +152,18 @@ class TestSelection {
     return test;
   }
 
+  // Those that people who only take the shortest path get wrong, if there are any.
+  [[nodiscard]] std::vector<StartIndex> telling(std::vector<StartIndex> demos) const {
+    if (preferences_ == nullptr || !preferences_->avoids_shortest) return demos;
+    std::vector<StartIndex> found;
+    std::ranges::copy_if(demos, std::back_inserter(found),
+                         [&](StartIndex demo) { return preferences_->cache.is_shortest_wrong(demo); });
+    return found.empty() ? demos : found;
+  }
+
   // Most complex, then least like the unit's demonstrations on average, then chance.
-  [[nodiscard]] StartIndex most_complex(const std::vector<StartIndex>& demos) const {
+  [[nodiscard]] StartIndex most_complex(const std::vector<StartIndex>& all) const {
+    const auto demos = telling(all);
     StartIndex best;
     std::optional<VisualKey> best_key;
     for (const auto demo : demos) {
@@ -164,6 +185,7 @@ class TestSelection {
   const std::vector<Demonstration>& unit_;
   VisitedStarts& visited_;
   const RandomStream& random_;
+  const TestPreferences* preferences_;
   std::vector<bool> is_shown_;             // by trajectory class, of which there are no more than demonstrations
   std::vector<std::uint32_t> num_tested_;  // per start, of the open constraints; 0 but in covering_several()
 };
@@ -171,8 +193,9 @@ class TestSelection {
 }  // namespace
 
 TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
-                        const std::vector<HalfSpace>& taught, VisitedStarts& visited, RandomStream random) {
-  return TestSelection{atlas, component, unit, visited, random}.choose(taught);
+                        const std::vector<HalfSpace>& taught, VisitedStarts& visited, RandomStream random,
+                        const TestPreferences* preferences) {
+  return TestSelection{atlas, component, unit, visited, random, preferences}.choose(taught);
 }
 
 }  // namespace kith

@@ -8,6 +8,7 @@
 
 #include "item_delivery.hpp"
 #include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/random/distributions.hpp"
 #include "kith/teaching/session.hpp"
 #include "robots_answers.hpp"
@@ -17,6 +18,45 @@ namespace {
 
 using testing::item_delivery;
 
+// Few worlds and starts, so that there is little to ask about.
+constexpr const char* kLibrary = R"(schema = "kith.domain/1"
+id = "library"
+[mdp]
+discount = 1.0
+max_steps = 60
+[family]
+starts = 3
+[map]
+rows = ["..q..#.k..G",
+        "S.q..L.kk..",
+        ".##..#.##..",
+        ".....#..q..",
+        "..kk.#..q..",
+        ".....R....."]
+[map.legend]
+"." = "floor"
+"#" = "wall"
+"S" = { start = true }
+"G" = { goal = true }
+"L" = { terrain = "lift" }
+"R" = { terrain = "ramp" }
+"q" = { terrain = "quiet", optional = "exam" }
+"k" = { terrain = "carpet", optional = "carpets" }
+[[feature]]
+name = "lift"
+when = "enter:lift"
+[[feature]]
+name = "noise"
+when = "enter:quiet"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { lift = -5, noise = -3, step = -1 }
+[prior]
+halfspaces = [ { lift = -1 }, { noise = -1 }, { step = -1 } ]
+)";
+
 class EveryKind : public ::testing::TestWithParam<std::size_t> {
  protected:
   [[nodiscard]] static const StrategyKind& kind() { return strategy_kinds()[GetParam()]; }
@@ -25,7 +65,7 @@ class EveryKind : public ::testing::TestWithParam<std::size_t> {
   [[nodiscard]] static RandomStream person(std::size_t i) { return RandomStream{21}.split("person").split(i); }
 
   // Who sits in seat i is seats[i].
-  [[nodiscard]] static Session session(TeachingCache& cache, const std::vector<std::size_t>& seats) {
+  [[nodiscard]] static Session session_of(TeachingCache& cache, const std::vector<std::size_t>& seats) {
     std::vector<RandomStream> persons;
     for (const auto i : seats) persons.push_back(person(i));
     TeachingOptions options;
@@ -84,8 +124,8 @@ TEST_P(EveryKind, RefusesParametersOutOfRange) {
 TEST_P(EveryKind, TeachesAlikeForEqualStreamsAndAnswers) {
   TeachingCache cache{item_delivery()};
   TeachingCache other_cache{item_delivery()};
-  auto a = session(cache, in_order());
-  auto b = session(other_cache, in_order());
+  auto a = session_of(cache, in_order());
+  auto b = session_of(other_cache, in_order());
   while (a.propose(cache)) {
     ASSERT_TRUE(b.propose(other_cache));
     ASSERT_EQ(a.lesson(), b.lesson());
@@ -99,10 +139,10 @@ TEST_P(EveryKind, TeachesAlikeForEqualStreamsAndAnswers) {
 
 TEST_P(EveryKind, DoesNotLookAtSeats) {
   TeachingCache cache{item_delivery()};
-  auto straight = session(cache, in_order());
+  auto straight = session_of(cache, in_order());
   auto seats = in_order();
   std::rotate(seats.begin(), seats.begin() + static_cast<std::ptrdiff_t>(seats.size() / 2), seats.end());
-  auto permuted = session(cache, seats);
+  auto permuted = session_of(cache, seats);
   while (straight.propose(cache)) {
     ASSERT_TRUE(permuted.propose(cache));
     auto here = straight.lesson();
@@ -121,10 +161,10 @@ TEST_P(EveryKind, DoesNotLookAtSeats) {
 
 TEST_P(EveryKind, IsReplayedFromItsEvents) {
   TeachingCache cache{item_delivery()};
-  auto original = session(cache, in_order());
+  auto original = session_of(cache, in_order());
   while (original.propose(cache)) original.submit(answers(original, in_order()));
   TeachingCache fresh{item_delivery()};
-  auto again = session(fresh, in_order());
+  auto again = session_of(fresh, in_order());
   for (const auto& event : original.events()) again.apply(event, fresh);
   EXPECT_EQ(original, again);
 }
@@ -132,7 +172,7 @@ TEST_P(EveryKind, IsReplayedFromItsEvents) {
 // A copy in the middle of teaching goes on as the original does.
 TEST_P(EveryKind, IsCopiedWithItsState) {
   TeachingCache cache{item_delivery()};
-  auto original = session(cache, in_order());
+  auto original = session_of(cache, in_order());
   for (int period = 0; period < 3 && original.propose(cache); ++period) original.submit(answers(original, in_order()));
   auto copy = original;
   while (original.propose(cache)) {
@@ -143,6 +183,43 @@ TEST_P(EveryKind, IsCopiedWithItsState) {
   }
   EXPECT_FALSE(copy.propose(cache));
   EXPECT_EQ(original, copy);
+}
+
+// In a domain of few starts. A test that was demonstrated asks about something that all starts which ask about it did
+// show, and lessons count such tests.
+TEST_P(EveryKind, AsksWhatItShowedOnlyIfNothingElseServes) {
+  const Atlas atlas{parse_domain(kLibrary, "library.toml").domain.value()};
+  TeachingCache cache{atlas};
+  auto taught = session_of(cache, in_order());
+  std::vector<bool> shown(atlas.num_states());
+  std::size_t num_repeated = 0;
+  for (int period = 0; period < 8 && taught.propose(cache); ++period) {
+    const auto& lesson = taught.lesson();
+    const auto& component = atlas.knowledge_components()[lesson.component];
+    for (const auto& one : lesson.demonstrations) shown[one.demo.value()] = true;
+    const auto all_shown = [&](const HalfSpace& constraint) {
+      const auto number = atlas.constraints().find(constraint);
+      if (!number) return false;
+      const auto tests = atlas.tests_for(*number);
+      return std::all_of(tests.begin(), tests.end(), [&](StartIndex demo) {
+        return shown[demo.value()] || !component.uses_mdp[atlas.id(demo).mdp.value()];
+      });
+    };
+    std::size_t repeated = 0;
+    for (const auto& test : lesson.tests) {
+      if (!shown[test.demo.value()]) continue;
+      ++repeated;
+      if (test.exact) {
+        EXPECT_TRUE(std::any_of(test.covered.begin(), test.covered.end(), all_shown)) << lesson.period;
+      }
+    }
+    EXPECT_EQ(lesson.tests_demonstrated, repeated);
+    num_repeated += repeated;
+    const std::vector<std::vector<Answer>> nobody(team_size(), std::vector<Answer>(lesson.tests.size()));
+    taught.submit(nobody);
+  }
+  EXPECT_GT(taught.periods(), 2u);
+  RecordProperty("repeated", static_cast<int>(num_repeated));
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryKind, ::testing::Range(std::size_t{0}, strategy_kinds().size()),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "item_delivery.hpp"
@@ -191,6 +192,53 @@ TEST(SelectTests, PrefersPicturesThatWereNotShown) {
   const auto again = select_tests(atlas, component, {}, taught, visited, RandomStream{5});
   ASSERT_EQ(again.tests.size(), 1u);
   EXPECT_TRUE(all.contains(again.tests[0].demo));
+}
+
+// Of starts that people met, those come last that were demonstrated.
+TEST(SelectTests, AsksWhatWasDemonstratedOnlyIfNothingElseTestsIt) {
+  const auto& atlas = item_delivery();
+  const auto& component = last_component(atlas);
+  const std::vector<HalfSpace> taught{atlas.policy_bec_half_spaces().front()};
+  const auto all = testers(atlas, component, taught.front(), VisitedStarts{atlas.num_states()});
+  ASSERT_GT(all.size(), 2u);
+  VisitedStarts met{atlas.num_states()}, demonstrated{atlas.num_states()};
+  for (const auto demo : all) {
+    met.insert(demo);
+    if (demo != *all.rbegin()) demonstrated.insert(demo);
+  }
+  TeachingCache cache{atlas};
+  const TestPreferences preferences{cache, demonstrated};
+  auto choice = select_tests(atlas, component, {}, taught, met, RandomStream{5}, &preferences);
+  ASSERT_EQ(choice.tests.size(), 1u);
+  EXPECT_EQ(choice.tests[0].demo, *all.rbegin());
+  demonstrated.insert(*all.rbegin());
+  choice = select_tests(atlas, component, {}, taught, met, RandomStream{5}, &preferences);
+  ASSERT_EQ(choice.tests.size(), 1u);
+  EXPECT_TRUE(all.contains(choice.tests[0].demo));
+}
+
+TEST(SelectTests, PrefersWhatTheShortestPathGetsWrong) {
+  for (const std::string name : {"item-delivery", "colored-tiles", "navigation"}) {
+    const Atlas atlas{load_domain(name)};
+    const auto& component = last_component(atlas);
+    TeachingCache cache{atlas};
+    const VisitedStarts none{atlas.num_states()};
+    const TestPreferences preferences{cache, none, true};
+    std::size_t num_wrong = 0;
+    for (const auto& constraint : atlas.policy_bec_half_spaces()) {
+      const auto number = atlas.constraints().find(constraint);
+      if (!number || atlas.tests_for(*number).empty()) continue;
+      VisitedStarts visited{atlas.num_states()};
+      const auto choice = select_tests(atlas, component, {}, {constraint}, visited, RandomStream{1}, &preferences);
+      const auto tests = atlas.tests_for(*number);
+      const bool any =
+          std::any_of(tests.begin(), tests.end(), [&](StartIndex d) { return cache.is_shortest_wrong(d); });
+      ASSERT_EQ(choice.tests.size(), 1u);
+      EXPECT_EQ(cache.is_shortest_wrong(choice.tests[0].demo), any) << name;
+      num_wrong += any ? 1u : 0u;
+    }
+    EXPECT_GT(num_wrong, 0u) << name;
+  }
 }
 
 // A constraint that no start tests is tested by the nearest in angle over the same features.

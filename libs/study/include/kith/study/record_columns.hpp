@@ -203,6 +203,10 @@ void declare(Fields& fields, Declared<PeriodRecord>) {
   fields.column(&R::all_correct, {"all_correct", "Whether every member answered every test correctly."});
   fields.column(&R::excluded, {"excluded", "Members left out of the common belief because their answers conflict."});
   fields.column(&R::untested, {"untested", "Taught constraints that nothing can test."});
+  fields.column(&R::tests_demonstrated,
+                {"tests_demonstrated",
+                 "Tests whose start was demonstrated in this period or before, since no other start tests the same."},
+                {.since = 11});
   fields.column(&R::gain, {"gain",
                            "Logarithm of the area of what was learned before (the prior and the components learned) "
                            "over running_area_sr; 0 if a lesson is shown again."});

@@ -108,6 +108,7 @@ struct PeriodRecord {
   bool all_correct = false;  ///< Everybody answered every test correctly.
   std::size_t excluded = 0;
   std::size_t untested = 0;
+  std::size_t tests_demonstrated = 0;  ///< Lesson::tests_demonstrated
   double gain = 0.0;
   std::optional<PeriodForecast> forecast{};  ///< If StudySpec::forecast_sessions.
   std::optional<PeriodMastery> mastery{};    ///< If StudySpec::estimates.

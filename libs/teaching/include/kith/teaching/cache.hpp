@@ -77,6 +77,10 @@ class TeachingCache {
   /// The same, for those that outlive this object.
   const std::shared_ptr<const Exam>& shared_exam();
 
+  /// Whether people who only take the shortest path get a test wrong: who think that nothing costs anything but the
+  /// reference feature. Never where the robot gains by that. Found when first asked for.
+  bool is_shortest_wrong(StartIndex test);
+
   /// What imitating demonstrations comes to in the exam, made when first asked for; until trim().
   ImitationTable& imitation();
 
@@ -98,6 +102,7 @@ class TeachingCache {
   std::shared_ptr<PolicyPartitions> partitions_;
   std::unique_ptr<Known> known_;
   std::shared_ptr<const Exam> exam_;
+  std::vector<std::optional<bool>> is_shortest_wrong_;  // per start
   std::optional<ImitationTable> imitation_;
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
   std::vector<std::shared_ptr<const StartSample>> tests_;   // per component

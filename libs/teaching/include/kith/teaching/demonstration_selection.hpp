@@ -20,6 +20,7 @@ struct SelectionOptions {
   CounterfactualSampling sampling = CounterfactualSampling::kSystematic;
   HalfSpaceLikelihood likelihood{0.8};  ///< How the copy of the belief learns from the unit's demonstrations.
   std::size_t max_demonstrations = 0;   ///< Per unit; 0: as many as have gain.
+  bool avoids_repeats = true;           ///< TeachingOptions::avoids_repeats
 };
 
 /// The policy cells of N beliefs drawn from `belief`; ascending, each once.
@@ -54,9 +55,9 @@ struct SelectionOptions {
 ///
 /// @param unit  with its taught_region, from which teaching begins if it has no demonstrations.
 /// @param shown_before  by other lessons of the component. @param visited  before the unit.
-/// @param max_demonstrations  of the unit; 0: as many as have gain.
+/// @param options  its max_demonstrations and avoids_repeats.
 void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& component,
-                   std::span<const HalfSpace> shown_before, VisitedStarts visited, std::size_t max_demonstrations,
+                   std::span<const HalfSpace> shown_before, VisitedStarts visited, const SelectionOptions& options,
                    RandomStream random);
 
 /// What a strategy chooses demonstrations with: select_demonstrations() with the options, the component, the region

@@ -51,6 +51,8 @@ struct Test {
   std::vector<HalfSpace>
       covered;        ///< The examined constraints that the robot's path shows and that its feedback teaches.
   bool exact = true;  ///< False: no start tests the constraint itself; this one tests the nearest.
+  /// Whether people who only take the shortest path get it wrong: else a right answer tells nobody what they know.
+  bool is_shortest_wrong = false;
   friend bool operator==(const Test&, const Test&) = default;
 };
 
@@ -63,11 +65,12 @@ struct Lesson {
   std::vector<Demonstration> demonstrations;
   std::vector<HalfSpace> taught;  ///< T: minimal set of the prior and all D, without the prior's own; sorted.
   std::vector<Test> tests;
-  std::size_t untested = 0;      ///< Constraints of T that no start can test.
-  bool repeats = false;          ///< Nothing had gain: the last unit of this component is shown again.
-  double area_sr = 0.0;          ///< Solid angle of T with the prior.
-  double running_area_sr = 0.0;  ///< Solid angle of the taught region after the unit.
-  double gain = 0.0;             ///< log(area of the taught region before / after the unit); 0 for a repeated unit.
+  std::size_t untested = 0;            ///< Constraints of T that no start can test.
+  std::size_t tests_demonstrated = 0;  ///< Tests whose start was demonstrated in this lesson or before.
+  bool repeats = false;                ///< Nothing had gain: the last unit of this component is shown again.
+  double area_sr = 0.0;                ///< Solid angle of T with the prior.
+  double running_area_sr = 0.0;        ///< Solid angle of the taught region after the unit.
+  double gain = 0.0;  ///< log(area of the taught region before / after the unit); 0 for a repeated unit.
   friend bool operator==(const Lesson&, const Lesson&) = default;
 };
 

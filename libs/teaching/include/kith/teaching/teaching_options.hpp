@@ -66,6 +66,12 @@ struct TeachingOptions {
   std::optional<StopChoice> release{};
   std::size_t duplicate_sets = 1;  ///< test sets per period, >= 1
 
+  /// Whether a start is shown or asked about again only where no other serves. Sessions that began before kith did so
+  /// are repeated without.
+  bool avoids_repeats = true;
+  /// Whether tests come first that people get wrong who only take the shortest path, as only real people do.
+  bool avoids_shortest = false;
+
   /// The rules of aggregation that there are: their beliefs are kept where the strategy reads them.
   std::vector<AggregationRule> rules{aggregation_rules().begin(), aggregation_rules().end()};
   /// What members may be like, as the bank has it that strategies and stopping rules may ask for; see LearnerBank.
