@@ -117,9 +117,10 @@ bool AtlasBuilder::is_before(const HalfSpace& a, const HalfSpace& b) const {
 Eigen::MatrixXd AtlasBuilder::people_within(const ConstraintSet& set, std::size_t n) const {
   auto half_spaces = atlas_.constraints_.half_spaces(set);
   std::sort(half_spaces.begin(), half_spaces.end(), [this](const auto& a, const auto& b) { return is_before(a, b); });
-  const auto cone = Cone::intersection(half_spaces);
-  KITH_ASSERT(cone.has_value());
-  return cover(*cone, n, atlas_.feature_order_);
+  Cone region{atlas_.domain_.num_features()};  // the whole sphere, if there is no prior and nothing is known
+  const bool has_room = region.clip(half_spaces);
+  KITH_ASSERT(has_room);
+  return cover(region, n, atlas_.feature_order_);
 }
 
 std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
@@ -252,6 +253,8 @@ void AtlasBuilder::find_indifference() {
       if (!loss.is_zero()) collect(HalfSpace{loss});
     }
   }
+  // Nobody believes what the prior excludes: with a tie on its other side it leaves no region either.
+  ties.insert(ties.end(), atlas_.domain_.prior().begin(), atlas_.domain_.prior().end());
   indifferent_ = !has_interior(ties);
 }
 

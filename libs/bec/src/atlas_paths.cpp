@@ -119,14 +119,15 @@ void AtlasBuilder::compare_whole_paths() {
   const double after = regret_of(regret, people_within(known, 2 * kPathPeople), kPathPeople);
   atlas_.regret_left_ = before > 0.0 ? after / before : 0.0;
   if (shown.empty()) return;
-  const auto region = Cone::intersection(atlas_.constraints_.half_spaces(known));
-  KITH_ASSERT(region.has_value());  // the robot's weights lie inside
+  Cone region{atlas_.domain_.num_features()};
+  const bool has_room = region.clip(atlas_.constraints_.half_spaces(known));
+  KITH_ASSERT(has_room);  // the robot's weights lie inside
   for (const double miss : kMisses) {
-    for (const auto& weights : near_misses(*region, region->facets(), miss)) {
+    for (const auto& weights : near_misses(region, region.facets(), miss)) {
       for (const auto& mistake : regret.mistakes(weights)) meet(mistake);
     }
   }
-  for (const auto& [i, comparisons] : shown) show_more(atlas_.demos_[i], comparisons, *region);
+  for (const auto& [i, comparisons] : shown) show_more(atlas_.demos_[i], comparisons, region);
 }
 
 // What is added to what a start shows: the comparisons that follow from the region.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/runs/run_folder.hpp"
@@ -152,9 +153,11 @@ class RunImport {
       auto& of_type = models_of_.emplace_back();
       for (const auto& type : variant.learner_types) {
         of_type[type.letter] = logs_.models.size();
-        const auto prior = type.prior ? Cone::intersection(*type.prior) : std::optional{atlas_->prior_cone()};
+        auto prior = type.prior ? Cone{atlas_->domain().num_features()} : atlas_->prior_cone();
+        const bool has_room = !type.prior || prior.clip(*type.prior);
+        KITH_ASSERT(has_room);  // else the study could not be read
         logs_.models.push_back({.parameters = as_bayesian(type.parameters),
-                                .prior = prior.value(),
+                                .prior = std::move(prior),
                                 .form = variant.teaching.likelihood,
                                 .atlas = atlas_});
       }

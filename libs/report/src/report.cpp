@@ -202,8 +202,8 @@ void note_estimate(const Atlas& atlas, std::vector<std::string>& notes) {
 std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
   std::vector<double> masses;
   for (const auto& type : run.types()) {
-    auto prior = atlas.prior_cone();
-    if (type.prior) prior = Cone::intersection(*type.prior).value_or(prior);
+    auto prior = type.prior ? Cone{atlas.domain().num_features()} : atlas.prior_cone();
+    if (type.prior && !prior.clip(*type.prior)) prior = atlas.prior_cone();
     std::optional<PriorCover> cover;
     const LearnerStart start{
         .cover = [&](std::size_t num_points) -> const PriorCover& { return cover.emplace(prior, num_points); }};
