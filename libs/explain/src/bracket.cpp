@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "kith/geometry/cone.hpp"
 
@@ -41,14 +42,42 @@ Bracket bracket_of(std::size_t k, std::size_t r, std::span<const IntegerVector> 
   return bracket;
 }
 
-// An end with two decimals, or from 10 on as a whole number; what is said is never more than what is known.
-std::string number_text(double x, bool is_least) {
-  constexpr double kLarge = 10.0;
-  if (x >= kLarge && x != std::round(x)) x = is_least ? std::floor(x) : std::ceil(x);
-  auto text = std::to_string(std::round(x * 100.0) / 100.0);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+constexpr std::size_t kMostDecimals = 19;  // 64 bits have no more
+
+// A number of 0 or more with at most so many decimals, rounded down or up, exactly.
+std::string rounded(const Ratio& ratio, std::size_t decimals, bool up) {
+  Int128 scaled = ratio.numerator;
+  for (std::size_t i = 0; i < decimals; ++i) scaled *= 10;
+  auto whole = scaled / ratio.denominator;
+  if (up && scaled % ratio.denominator != 0) ++whole;
+  std::string digits;
+  for (; whole != 0 || digits.size() <= decimals; whole /= 10)
+    digits += static_cast<char>('0' + static_cast<int>(whole % 10));
+  std::ranges::reverse(digits);
+  if (decimals == 0) return digits;
+  digits.insert(digits.size() - decimals, 1, '.');
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits;
+}
+
+// The text of `least` and of `most`, empty if there is none.
+std::pair<std::string, std::string> texts_of(const std::optional<Ratio>& least, const std::optional<Ratio>& most) {
+  constexpr double kLarge = 10.0, kSmall = 0.1;
+  const auto text = [&](const std::optional<Ratio>& end, std::size_t more, bool up) -> std::string {
+    if (!end) return {};
+    auto decimals = (end->value() >= kLarge ? 0 : 2) + more;
+    for (double x = end->value(); x > 0.0 && x < kSmall; x *= 10.0) ++decimals;
+    return rounded(*end, std::min(decimals, kMostDecimals), up);
+  };
+  for (std::size_t more = 0;; ++more) {
+    std::pair texts{text(least, more, false), text(most, more, true)};
+    if (!least || !most || texts.first != texts.second || *least == *most || more == kMostDecimals) return texts;
+  }
+}
+
+std::optional<Ratio> times(const std::optional<Ratio>& ratio, std::int64_t sign) {
+  return ratio ? std::optional{Ratio{sign * ratio->numerator, ratio->denominator}} : std::nullopt;
 }
 
 // "4 steps", "2 to 4 steps".
@@ -63,14 +92,21 @@ std::string amount(const Wording& wording, const std::string& number) {
 }
 
 // What is at least `least` and at most `most`, if there are such; both are 0 or more.
-std::string range_in_words(const Wording& unit, const std::optional<double>& least, const std::optional<double>& most) {
-  const bool has_least = least && *least > 0.0;
-  if (has_least && most && *least == *most) return amount(unit, number_text(*least, true));
-  if (has_least && most) return amount(unit, number_text(*least, true) + " to " + number_text(*most, false));
-  if (has_least) return "more than " + amount(unit, number_text(*least, true));
-  if (most && *most == 0.0) return "nothing";
-  return most ? "less than " + amount(unit, number_text(*most, false)) : "something";
+std::string range_in_words(const Wording& unit, const std::optional<Ratio>& least, const std::optional<Ratio>& most) {
+  const bool has_least = least && least->numerator > 0;
+  const auto [from, to] = texts_of(least, most);
+  if (has_least && most && *least == *most) {
+    const bool is_exact = rounded(*least, kMostDecimals, false) == from;
+    return (is_exact ? "" : "about ") + amount(unit, from);
+  }
+  if (has_least && most) return amount(unit, from + " to " + to);
+  if (has_least) return "more than " + amount(unit, from);
+  if (most && most->numerator == 0) return "nothing";
+  return most ? "less than " + amount(unit, to) : "something";
 }
+
+bool is_cost(const Bracket& bracket) { return bracket.high && bracket.high->numerator <= 0; }
+bool is_gain(const Bracket& bracket) { return bracket.low && bracket.low->numerator >= 0; }
 
 }  // namespace
 
@@ -114,20 +150,27 @@ Bracket while_others_stay(const Domain& domain, std::span<const HalfSpace> known
   return bracket;
 }
 
+BracketEnds ends_of(const Bracket& bracket) {
+  if (is_cost(bracket)) {
+    auto [from, to] = texts_of(times(bracket.high, -1), times(bracket.low, -1));
+    return {from, to};
+  }
+  if (is_gain(bracket)) {
+    auto [from, to] = texts_of(bracket.low, bracket.high);
+    return {from, to};
+  }
+  return {texts_of({}, times(bracket.low, -1)).second, texts_of({}, bracket.high).second};
+}
+
 std::string bracket_in_words(const Domain& domain, const Bracket& bracket) {
   const auto& thing = domain.wording(bracket.feature).one;
   const auto& unit = domain.wording(bracket.reference);
-  const auto end = [](const std::optional<Ratio>& ratio, double sign) {
-    return ratio ? std::optional{sign * ratio->value()} : std::nullopt;
-  };
-  const bool is_cost = bracket.high && bracket.high->numerator <= 0;
-  const bool is_gain = bracket.low && bracket.low->numerator >= 0;
-  if (is_cost) return thing + " costs " + range_in_words(unit, end(bracket.high, -1.0), end(bracket.low, -1.0));
-  if (is_gain) return thing + " is worth " + range_in_words(unit, end(bracket.low, 1.0), end(bracket.high, 1.0));
+  const auto& [feature, reference, low, high] = bracket;
+  if (is_cost(bracket)) return thing + " costs " + range_in_words(unit, times(high, -1), times(low, -1));
+  if (is_gain(bracket)) return thing + " is worth " + range_in_words(unit, low, high);
   std::string text = thing;
-  if (bracket.low) text += " costs " + range_in_words(unit, {}, end(bracket.low, -1.0));
-  if (bracket.high)
-    text += std::string{bracket.low ? " and" : ""} + " is worth " + range_in_words(unit, {}, end(bracket.high, 1.0));
+  if (low) text += " costs " + range_in_words(unit, {}, times(low, -1));
+  if (high) text += std::string{low ? " and" : ""} + " is worth " + range_in_words(unit, {}, high);
   return text;
 }
 

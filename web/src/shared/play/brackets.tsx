@@ -11,6 +11,7 @@ export interface Bracket {
   reference: number;
   low: Ratio | null; // of the weight, in units of what the reference weighs: costs are negative
   high: Ratio | null;
+  ends: [string, string]; // of the cost or gain, rounded outwards; empty: none
   text: string; // in English
 }
 
@@ -32,15 +33,12 @@ export function Brackets({ brackets, counted = [] }: { brackets: Bracket[]; coun
 const kWidth = 320;
 const kSide = 14;
 
-const number = (x: number): string => String(Math.abs(Math.round(100 * x) / 100));
-
 // "Crossing rubble, measured in steps: 2 to 4"
-function inNumbers({ feature, reference }: Bracket, counted: Counted[], from: number | null, to: number | null): string {
+function inNumbers({ feature, reference, ends: [from, to] }: Bracket, counted: Counted[]): string {
   const [what, unit] = [counted[feature], counted[reference]];
   if (!what || !unit) return '';
-  const ends = from !== null && to !== null ? 'between' : from !== null ? 'above' : 'below';
-  const values = { what: labelOf(what), unit: labelOf(unit), from: number(from ?? 0), to: number(to ?? 0) };
-  return capitalised(t(`brackets.${ends}`, values));
+  const ends = from && to ? 'between' : from ? 'above' : 'below';
+  return capitalised(t(`brackets.${ends}`, { what: labelOf(what), unit: labelOf(unit), from, to }));
 }
 
 // Costs and gains alike grow to the right; where neither is known, costs are to the left of nought.
@@ -58,7 +56,7 @@ function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): 
   for (let x = Math.ceil(least / step) * step; x <= most; x += step) ticks.push(x);
   return (
     <div class="bracket">
-      <p>{isEnglish() ? sentence(bracket.text) : inNumbers(bracket, counted, from, to)}</p>
+      <p>{isEnglish() ? sentence(bracket.text) : inNumbers(bracket, counted)}</p>
       <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
         <path class="axis" d={`M${kSide} 13H${kWidth - kSide}`} />
         <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />

@@ -45,8 +45,16 @@ struct Bracket {
 [[nodiscard]] Bracket while_others_stay(const Domain& domain, std::span<const HalfSpace> known, std::size_t k,
                                         std::size_t reference);
 
+/// The ends of a bracket as numbers without a sign, empty where there is none: of a cost its least and its most, else
+/// those of `low` and `high`. Rounded so that no more is said than is known: to two decimals, from 10 on to none, below
+/// 0.1 to two digits, and to as many more as it takes that two ends are not one.
+struct BracketEnds {
+  std::string from, to;
+};
+[[nodiscard]] BracketEnds ends_of(const Bracket& bracket);
+
 /// "crossing rubble costs 2 to 4 steps", "stopping at the charger is worth more than 2 steps", "crossing rubble costs
-/// less than 4 steps". Ends have two decimals at most, from 10 on none, rounded so that the sentence stays true.
+/// less than 4 steps", with ends as ends_of() writes them.
 [[nodiscard]] std::string bracket_in_words(const Domain& domain, const Bracket& bracket);
 
 }  // namespace kith

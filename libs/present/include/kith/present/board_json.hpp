@@ -34,7 +34,8 @@ namespace kith {
 [[nodiscard]] Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step);
 /// [{"normal", "text"}]
 [[nodiscard]] Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces);
-/// [{"feature", "reference", "low", "high", "text"}]: ends are [numerator, denominator] or null; bracket_in_words().
+/// [{"feature", "reference", "low", "high", "ends", "text"}]: low and high are [numerator, denominator] or null, the
+/// ends two texts (ends_of()), the text that of bracket_in_words().
 [[nodiscard]] Json brackets_json(const Domain& domain, std::span<const Bracket> brackets);
 /// {"text", "runs": [{"frames", "ended"}]}: what happened in how many of all runs, and typical_runs(); null if there
 /// are none, as where nothing is left to chance.
