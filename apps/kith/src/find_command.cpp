@@ -76,10 +76,12 @@ void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace
   const auto id = found.atlas.id(found.demo);
   const auto path = found.atlas.trajectory(found.demo);
   const std::string verb = purpose == Purpose::kTeach ? "teaches" : "tests";
+  // Without tables whole paths that people could expect are not known.
+  const bool is_rough = purpose == Purpose::kTest && found.atlas.find_tables() == nullptr;
   std::string text;
   if (found.made == nullptr) {
-    text = fmt::format("W{}, start {} {} exactly this: {}\n", world_text(domain, id.mdp).substr(1), id.start.value(),
-                       verb, described(domain, constraint));
+    text = fmt::format("W{}, start {} {} exactly this{}: {}\n", world_text(domain, id.mdp).substr(1), id.start.value(),
+                       verb, is_rough ? ", as far as single other actions tell" : "", described(domain, constraint));
   } else {
     std::vector<std::string> changes;
     for (const auto& change : found.made->changes) changes.push_back(change_in_words(*family.map(), change));
@@ -175,7 +177,8 @@ Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose
   const auto next = options.no_make && can_make ? "without --no-make a world is made"
                     : can_make ? fmt::format("--changes {} also tries worlds that differ more", options.changes + 1)
                                : "`kith find DOMAIN` lists what can be isolated";
-  return infeasible("E1111", message, why_none(atlas, constraint, purpose) + "; " + next);
+  const std::string ties = leaves_out_ties(atlas) ? "; comparisons of equally good paths do not count here" : "";
+  return infeasible("E1111", message, why_none(atlas, constraint, purpose) + ties + "; " + next);
 }
 
 void declare(OptionList& list, FindOptions& options) {

@@ -155,6 +155,20 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
 
 }  // namespace
 
+bool leaves_out_ties(const Atlas& atlas) {
+  const auto& domain = atlas.domain();
+  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
+    if (!atlas.is_candidate(demo) || !atlas.has_tie(demo)) continue;
+    const auto [world, s] = atlas.id(demo);
+    for (std::size_t c = 0; c < domain.mdp(world).choices(s).size(); ++c) {
+      const auto loss = atlas.feature_counts(demo) - atlas.deviation_counts(demo, c);
+      if (loss.is_zero() || sign_of_dot(domain.weights().integer, loss) != 0) continue;
+      if (!atlas.constraints().find(HalfSpace{loss})) return true;
+    }
+  }
+  return false;
+}
+
 bool isolates(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose) {
   auto region = atlas.prior_cone();
   return region.clip(atlas.constraints().half_spaces(set_for(atlas, demo, purpose))) &&
