@@ -170,7 +170,10 @@ class Inspection {
   }
 
   void constraints(const std::vector<HalfSpace>& half_spaces, const std::string& indent) {
-    for (const auto& half_space : half_spaces) out_ += indent + described(domain_, half_space) + "\n";
+    for (const auto& half_space : half_spaces) {
+      const auto words = in_words(domain_, half_space, half_spaces);
+      out_ += indent + normal_text(domain_, half_space) + (words.empty() ? "" : ": " + words) + "\n";
+    }
   }
 
   void bec() {
@@ -188,7 +191,8 @@ class Inspection {
 
   // How far every weight may change before the robot does anything else anywhere.
   void what_matters() {
-    heading("What matters: as long as the other weights stay, it does the same in every world if");
+    heading(fmt::format("What matters: as long as the other weights stay, it does {} in every world if",
+                        leaves_out_ties(*atlas_) ? "as well (some paths are equally good)" : "the same"));
     const auto reference = reference_feature(domain_, atlas_->knowledge_components());
     const auto& unit = domain_.wording(reference).one;
     for (std::size_t k = 0; k < domain_.num_features(); ++k) {

@@ -71,6 +71,36 @@ IntegerVector whole_counts(const Domain& domain, const IntegerVector& counts) {
   return whole;
 }
 
+namespace {
+
+// What the actions of a path that ends count; nothing unless all of it is whole.
+std::optional<IntegerVector> counts_along(const Mdp& mdp, const Trajectory& path) {
+  IntegerVector counts(mdp.num_features());
+  for (std::size_t t = 0; t < path.actions.size(); ++t) {
+    const auto step = detail::step_by(mdp, path.states[t], path.actions[t]);
+    if (!step) return std::nullopt;
+    const auto features = mdp.features(*step);
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      if (features[k] != std::round(features[k])) return std::nullopt;
+      counts[k] += std::llround(features[k]);
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+std::string choice_between(const Domain& domain, MdpIndex world, const Trajectory& robot, const Trajectory& other) {
+  const std::string unlike = "later steps count less for it, and its own path is worth more";
+  if (robot.repeats_from && other.repeats_from) return unlike;
+  if (other.repeats_from) return "it would rather finish than go on for ever";
+  if (robot.repeats_from) return "it would rather go on for ever than finish";
+  const auto own = counts_along(domain.mdp(world), robot);
+  const auto others = counts_along(domain.mdp(world), other);
+  if (!own || !others || *own == *others || sign_of_dot(domain.weights().integer, *own - *others) < 0) return unlike;
+  return choice_in_words(domain, *own, *others);
+}
+
 std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const HalfSpace> together) {
   const auto& domain = atlas.domain();
   if (domain.is_exact()) return reason(domain, contrast.robot_counts, contrast.alternative_counts);
@@ -81,6 +111,10 @@ std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const
   if (is_exact(domain.mdp(world))) {
     return choice_in_words(domain, whole_counts(domain, contrast.robot_counts),
                            whole_counts(domain, contrast.alternative_counts)) +
+           (sentence.empty() ? "" : ": " + sentence);
+  }
+  if (domain.mdp(world).is_deterministic()) {
+    return choice_between(domain, world, contrast.robot, contrast.alternative) +
            (sentence.empty() ? "" : ": " + sentence);
   }
   const auto difference = contrast.robot_counts - contrast.alternative_counts;

@@ -61,8 +61,9 @@ class CurriculumMaker {
 
   Curriculum make() {
     const RandomStream root{options_.seed};
-    Session session{
-        cache_, options_.teaching, strategy_named(kBaseline), {root.split("person")}, root.split("teacher")};
+    auto teaching = options_.teaching;
+    teaching.avoids_shortest = true;
+    Session session{cache_, teaching, strategy_named(kBaseline), {root.split("person")}, root.split("teacher")};
     std::size_t next = 0;
     while (session.propose(cache_)) {
       const auto lesson = session.lesson();
@@ -80,7 +81,9 @@ class CurriculumMaker {
       require_something_to_teach(atlas_);
       throw nothing_to_teach(atlas_, kUntold);
     }
+    keep_what_was_shown();
     add_fresh_tests();
+    curriculum_.endless = simplest_endless();
     return std::move(curriculum_);
   }
 
@@ -175,7 +178,7 @@ class CurriculumMaker {
     const auto difficulty = share >= kEasy  ? Difficulty::kEasy
                             : share < kHard ? Difficulty::kHard
                                             : Difficulty::kMedium;
-    return {test.demo, test.covered, share, difficulty, runs_from(test.demo)};
+    return {test.demo, test.covered, test.is_shortest_wrong, share, difficulty, runs_from(test.demo)};
   }
 
   // Of some starts in worlds that were neither shown nor tested, those about which most can be wrong; each in a world
@@ -209,6 +212,31 @@ class CurriculumMaker {
       is_seen[world] = true;
       curriculum_.fresh.push_back(std::move(test));
     }
+  }
+
+  // Of what the components are about; of some there may be nothing left that could be shown.
+  void keep_what_was_shown() {
+    Cone shown = atlas_.prior_cone();
+    for (const auto& component : curriculum_.components) {
+      for (const auto& one : component.demonstrations) {
+        const bool has_room = shown.clip(one.conveys);
+        KITH_ASSERT(has_room);  // the robot's weights lie inside
+      }
+    }
+    for (auto& component : curriculum_.components) {
+      std::erase_if(component.constraints, [&](const HalfSpace& constraint) { return !shown.implies(constraint); });
+    }
+  }
+
+  [[nodiscard]] std::optional<StartIndex> simplest_endless() const {
+    std::optional<StartIndex> simplest;
+    for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
+      const auto& mdp = atlas_.domain().mdp(atlas_.id(demo).mdp);
+      if (!atlas_.is_candidate(demo) || !mdp.is_deterministic() || mdp.discount() == 1.0) continue;
+      if (simplest && atlas_.complexity(*simplest) <= atlas_.complexity(demo)) continue;
+      if (atlas_.trajectory(demo).repeats_from) simplest = demo;
+    }
+    return simplest;
   }
 
   void skip(std::size_t component) {

@@ -143,15 +143,21 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
                {"robot", nullptr},
                {"differs_at", nullptr}};
     Json why = Json::array();
-    for (const auto& text : all_in_words(domain, test.covered)) why.push_back(sentence(text));
+    // Of a right answer that the shortest path gives, too, nothing is said.
+    if (!right || test.is_shortest_wrong) {
+      for (const auto& text : all_in_words(domain, test.covered)) why.push_back(sentence(text));
+    }
     entry["why"] = std::move(why);
+    const auto& mdp = domain.mdp(world);
+    std::string between;  // of the paths that are drawn, where counts would not say it
     const auto& path = t < seat.paths.size() ? seat.paths[t] : std::optional<GivenPath>{};
     if (path) {
       auto mine = judged_path(atlas, test.demo, path->actions, path->for_ever).path;
+      if (mdp.is_deterministic() && !is_exact(mdp)) between = choice_between(domain, world, robot, mine);
       if (const auto differs_at = first_difference(mine, robot)) {
         entry["differs_at"] = *differs_at;
         const bool is_fork = *differs_at < mine.actions.size() && *differs_at < robot.actions.size();
-        if (!right && is_fork && !domain.mdp(world).is_deterministic()) {
+        if (!right && is_fork && !mdp.is_deterministic()) {
           entry["chance"] = {{"world", world_key(room.study, world)},
                              {"state", world_state(room.study, world, atlas.id(test.demo).start).value_or(0)},
                              {"spared", spared_by(domain, world, robot.states[*differs_at], robot.actions[*differs_at],
@@ -166,7 +172,8 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
     add_path(entry, "robot", domain, world, robot);
     entry["unfinished"] = path && !path->is_finished;
     if (!right && path && path->counts) {
-      entry["cost"] = cost_in_words(domain, world, atlas.feature_counts(test.demo), *path->counts);
+      entry["cost"] = between.empty() ? cost_in_words(domain, world, atlas.feature_counts(test.demo), *path->counts)
+                                      : "The robot takes another path: " + between + ".";
     }
     tests.push_back(std::move(entry));
   }

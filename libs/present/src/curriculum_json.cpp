@@ -108,6 +108,7 @@ Json test_json(const Atlas& atlas, const CurriculumTest& test, Tables& tables) {
   json["runs"] = runs_json(atlas.domain(), id.mdp, test.runs);
   json["difficulty"] = name_of(test.difficulty);
   json["share_right"] = test.share_right;
+  json["is_shortest_wrong"] = test.is_shortest_wrong;
   json["covers"] = sentences_json(atlas.domain(), test.covers);
   return json;
 }
@@ -134,6 +135,12 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
   }
   Json fresh = Json::array();
   for (const auto& test : curriculum.fresh) fresh.push_back(test_json(atlas, test, tables));
+  Json endless;
+  if (curriculum.endless) {
+    const auto id = atlas.id(*curriculum.endless);
+    endless = board_json(atlas.domain(), id);
+    endless.update(path_json(atlas.domain(), id.mdp, atlas.trajectory(*curriculum.endless)));
+  }
   Json skipped = Json::array();
   for (const auto& one : curriculum.skipped) skipped.push_back({{"name", one.name}, {"why", one.why}});
   Json document{{"schema", "kith.curriculum/1"},
@@ -146,6 +153,7 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
                 {"max_actions", max_answer_actions(atlas.domain())},
                 {"components", components},
                 {"fresh", fresh},
+                {"endless", endless},
                 {"skipped", skipped}};
   if (auto explained = explained_to_people(atlas.domain()); !explained.empty())
     document["explained"] = std::move(explained);

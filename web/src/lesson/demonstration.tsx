@@ -69,14 +69,19 @@ function Seen({ shown, guess, isStill, ...context }: Context & { shown: Demonstr
   const isMine = mine !== null && verdict !== null && !verdict.isRight;
   const other = isMine ? mine : shown.alternative;
   const at = isMine ? partingOf(shown, mine) : (shown.decisive?.frame ?? null);
+  // What one's own path overlooks is compared with it; what the board was chosen for, if it is something else, with the
+  // path that shows it.
+  const own = isMine && verdict.counts ? choiceText(context.lesson, shown.counts, verdict.counts) : '';
+  const isSame = own !== '' && own === halvesOf(shown.reason)[0];
   const reason = (
     <>
       {mine && <p class={verdict?.isRight ? 'told right' : 'told wrong'}>{verdict?.isRight ? 'That is what it does.' : 'The robot does something else.'}</p>}
-      <Reason {...context} shown={shown} own={isMine && verdict.counts ? choiceText(context.lesson, shown.counts, verdict.counts) : ''} />
+      <Reason reason={isMine && !isSame ? own : shown.reason} />
     </>
   );
   const rest = (
     <>
+      {isMine && !isSame && <Besides {...context} shown={shown} />}
       <Brackets brackets={shown.brackets} />
       <More {...context} shown={shown} isOpen={isStill} />
     </>
@@ -113,19 +118,31 @@ function Seen({ shown, guess, isStill, ...context }: Context & { shown: Demonstr
   );
 }
 
-// What somebody's own path overlooks comes first, if it is something else than what the board was chosen for.
-function Reason({ shown, own }: Context & { shown: Demonstration; own: string }): JSX.Element {
-  const [choice, conveyed] = halvesOf(shown.reason);
-  const isOther = own !== '' && own !== choice;
+function Reason({ reason }: { reason: string }): JSX.Element | null {
+  const [choice, conveyed] = halvesOf(reason);
+  if (choice === '') return null;
   return (
     <div class="reasons">
-      {isOther && <p class="cost">{upperFirst(own)}.</p>}
-      {(!isOther || conveyed === '') && <p class="cost reason">{upperFirst(choice)}.</p>}
-      {conveyed !== '' && (
-        <p>
-          {isOther && 'What this board shows: '}
-          {isOther ? conveyed : upperFirst(conveyed)}.
-        </p>
+      <p class="cost reason">{upperFirst(choice)}.</p>
+      {conveyed !== '' && <p>{upperFirst(conveyed)}.</p>}
+    </div>
+  );
+}
+
+// The path that shows what the board was chosen for, beside the robot's.
+function Besides({ shown, ...context }: Context & { shown: Demonstration }): JSX.Element {
+  const { alternative: other } = shown;
+  const at = shown.decisive?.frame ?? null;
+  return (
+    <div class="besides">
+      <p class="list-title">And beside another path:</p>
+      <Reason reason={shown.reason} />
+      {shown.runs ? (
+        <OutcomesView {...context} shown={shown} mine={null} other={other} at={at} />
+      ) : (
+        <figure class="small">
+          <Whole {...context} board={shown} other={other} at={at} />
+        </figure>
       )}
     </div>
   );

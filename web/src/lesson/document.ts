@@ -33,6 +33,7 @@ export interface Demonstration extends Driven {
 export interface Test extends Driven {
   runs: Runs | null;
   covers: Sentence[];
+  is_shortest_wrong: boolean; // else a right answer tells nothing
 }
 
 export interface Component {
@@ -60,6 +61,7 @@ export interface Lesson {
   max_actions: number;
   components: Component[];
   fresh: Test[];
+  endless: (Board & Path) | null; // from where the robot never arrives
   skipped: { name: string; why: string }[];
 }
 

@@ -53,7 +53,7 @@ export function askingText({ worlds }: Context, shown: Driven & { runs: unknown 
   const asked = worlds.asked(shown);
   if (asked === 'path') return shown.runs ? `${question} ${t('predict.chance')}` : question;
   if (asked === 'nothing') return 'What will the robot do? Decide first, then look.';
-  return 'What will the robot try to do first? It does not always end up where it wants to go.';
+  return shown.runs ? 'What will the robot try to do first? It does not always end up where it wants to go.' : 'What will the robot do first?';
 }
 
 // The first move only.

@@ -57,7 +57,7 @@ function shownBy({ demonstrations }: Component, all: Component[], text: string):
 
 function Portrait({ predictions, ...context }: EndProps): JSX.Element {
   const isPrinting = usePrinting();
-  const { components, skipped } = context.lesson;
+  const { components, skipped, endless } = context.lesson;
   const known = new Map<number, Bracket>();
   for (const { brackets } of components.flatMap(({ demonstrations }) => demonstrations)) {
     for (const bracket of brackets) known.set(bracket.feature, bracket);
@@ -84,6 +84,14 @@ function Portrait({ predictions, ...context }: EndProps): JSX.Element {
   const fine = lines.filter(({ things }) => things > kEasy);
   return (
     <div class="portrait">
+      {endless && (
+        <ul class="lines">
+          <li>
+            <p class="cost">From here {endless.repeats_text ?? 'it goes on for ever'}.</p>
+            <Whole {...context} board={endless} />
+          </li>
+        </ul>
+      )}
       {shown(lines.filter(({ things }) => things <= kEasy))}
       {fine.length > 0 && (
         <Folded summary={`${counted(fine.length, 'finer trade-off')}, of more than ${kEasy} things`} isOpen={isPrinting}>

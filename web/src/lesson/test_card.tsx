@@ -55,9 +55,9 @@ function Answered({ test, guess, onAgain, ...context }: Context & { test: Test; 
       <div class="reasons">
         {isRight && mine && partingOf(test, mine) !== null && <p>{t('feedback.right_other')}</p>}
         {why !== '' && <p class="cost">{upperFirst(why)}.</p>}
-        {textsOf(test.covers).length > 0 && (
+        {textsOf(test.covers).length > 0 && (!isRight || test.is_shortest_wrong) && (
           <>
-            <p>{isRight ? t('feedback.showed') : 'What a right answer shows:'}</p>
+            <p>{isRight ? t('feedback.showed') : 'What the robot has shown:'}</p>
             <Sentences sentences={test.covers} />
           </>
         )}

@@ -39,6 +39,9 @@ export function Compare(props: Props): JSX.Element {
   const counts = [countsOf(robot, isOver || isStill ? robot.length - 1 : robotStep)];
   // where a page is not told what steps count, it says nothing
   if (other && other.some(({ counts: one }) => one)) counts.push(countsOf(other, isOver || isStill ? other.length - 1 : step));
+  // a path that never ends counts the steps of its cycle without end
+  const endless = [props.robot, props.other].map((path) => (isOver || isStill) && path?.repeats_from !== undefined ? countsOf(path.frames.slice(path.repeats_from)).map((n) => n > 0) : []);
+  const isForEver = props.robot.repeats_from !== undefined || props.other?.repeats_from !== undefined;
   const names = [t('ledger.robot'), props.otherName];
   const frame = robot[robotStep] ?? board.start;
   return (
@@ -56,7 +59,7 @@ export function Compare(props: Props): JSX.Element {
             decisive={decisive}
             closedAt={closedAt(props.robot)}
             {...(other && props.other ? { other, otherClosedAt: closedAt(props.other) } : {})}
-            {...(other && counts.length > 1 ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other)) } : {})}
+            {...(other && counts.length > 1 && !isForEver ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other)) } : {})}
           />
         ) : (
           <StateCard frame={frame} />
@@ -68,7 +71,7 @@ export function Compare(props: Props): JSX.Element {
         {props.reason}
         <Ledger
           domain={board.domain}
-          columns={counts.map((one, i) => ({ name: names[i] ?? '', kind: i === 0 ? 'own' : 'other', counts: one }))}
+          columns={counts.map((one, i) => ({ name: names[i] ?? '', kind: i === 0 ? 'own' : 'other', counts: one, endless: endless[i] ?? [] }))}
         />
         {!isStill && <Player playback={playback} primary={false} />}
         {props.children}

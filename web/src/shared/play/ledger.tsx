@@ -24,14 +24,15 @@ export interface Column {
   name: string; // "Robot"
   kind: 'own' | 'other';
   counts: number[];
+  endless?: boolean[]; // what the path goes on counting for ever
 }
 
 // While somebody moves there is one column, afterwards the robot's beside the prediction.
 export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column[] }): JSX.Element | null {
   const counted = domain.counted ?? [];
   const rows = counted
-    .map((one, k) => ({ one, values: columns.map(({ counts }) => counts[k] ?? 0) }))
-    .filter(({ values }, k) => counted.length <= kMost || k === counted.length - 1 || values.some((n) => n !== 0));
+    .map((one, k) => ({ one, values: columns.map(({ counts, endless }) => (endless?.[k] ? t('ledger.endless') : rounded(counts[k] ?? 0))) }))
+    .filter(({ values }, k) => counted.length <= kMost || k === counted.length - 1 || values.some((n) => n !== '0'));
   if (rows.length === 0) return null;
   return (
     <table class={columns.length > 1 ? 'ledger' : 'ledger single'}>
@@ -53,7 +54,7 @@ export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column
           <tr class={new Set(values).size > 1 ? 'differs' : undefined}>
             <th scope="row">{capitalised(labelOf(one))}</th>
             {values.map((n) => (
-              <td class="number">{rounded(n)}</td>
+              <td class="number">{n}</td>
             ))}
           </tr>
         ))}

@@ -40,6 +40,11 @@ struct Contrast {
 /// Counts of a path in a world where nothing is left to chance, as whole numbers, whatever Domain::count_scale() is.
 [[nodiscard]] IntegerVector whole_counts(const Domain& domain, const IntegerVector& counts);
 
+/// Why the robot takes its path and not another one, in a world without chance where later steps count less: what the
+/// two paths that are drawn count differently, or which of them never ends.
+[[nodiscard]] std::string choice_between(const Domain& domain, MdpIndex world, const Trajectory& robot,
+                                         const Trajectory& other);
+
 /// What the robot does, rather than what, because of what: reason() of both counts. In worlds where counts are
 /// expectations, risk_in_words(), on_average_in_words() and, if there is a short one, in_words() of what is conveyed.
 /// @param together  other constraints that are conveyed at the same time; see short_statement().

@@ -32,7 +32,8 @@ enum class Difficulty { kEasy, kMedium, kHard };
 /// A test, and how hard it is for those who have not been taught its component.
 struct CurriculumTest {
   StartIndex demo;
-  std::vector<HalfSpace> covers;  ///< Taught constraints that a right answer shows.
+  std::vector<HalfSpace> covers;   ///< Taught constraints that the robot's path is about.
+  bool is_shortest_wrong = false;  ///< Test::is_shortest_wrong
   /// Share of the beliefs that answer right, in [0, 1]: beliefs are uniform over what was known before the component.
   double share_right = 0.0;
   Difficulty difficulty = Difficulty::kMedium;  ///< Easy from two thirds on, hard below one third.
@@ -43,7 +44,7 @@ struct CurriculumTest {
 struct CurriculumComponent {
   std::size_t component = 0;           ///< Index into Atlas::knowledge_components().
   std::string name;                    ///< "crossing rubble against steps".
-  std::vector<HalfSpace> constraints;  ///< Minimal, sorted, without what is known beforehand.
+  std::vector<HalfSpace> constraints;  ///< Sorted, without what is known beforehand or follows from nothing shown.
   double area_sr = 0.0;                ///< Solid angle of the constraints with the prior.
   std::vector<CurriculumDemonstration> demonstrations;
   std::vector<CurriculumTest> tests;  ///< Easy ones first.
@@ -61,6 +62,7 @@ struct Curriculum {
   /// For those who have learned everything: tests in worlds that they have not seen, which about half of the beliefs
   /// of the prior answer right.
   std::vector<CurriculumTest> fresh;
+  std::optional<StartIndex> endless;  ///< The simplest start from which the robot never arrives, if there is one.
 };
 
 struct CurriculumOptions {
