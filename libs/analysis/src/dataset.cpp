@@ -79,7 +79,7 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
   const auto keep = [&](const CsvRow& row) {
     guard.take(row.cells.size() * kBytesPerCell + row.text.size());
     data.lines_.push_back(row.line);
-    data.decimal_comma_ = row.separator == ';';
+    data.decimal_comma_ = row.separator != ',';
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       const auto* const value = std::get_if<std::string>(&row.cells[c]);
       const bool missing = value == nullptr || value->empty() || *value == "NA";

@@ -108,13 +108,22 @@ Parsed parse_cell(const std::optional<std::string>& field, const Column& column,
     case ColumnType::kInteger:
       return parse_number<std::int64_t>(*field, column, "42");
     case ColumnType::kReal:
-      return parse_number<double>(separator == ';' ? with_decimal_point(*field) : *field, column, "0.5");
+      return parse_number<double>(separator == ',' ? *field : with_decimal_point(*field), column, "0.5");
     case ColumnType::kBoolean:
       if (const auto truth = truth_of(*field)) return {.cell = *truth};
       return {.fault = Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
                              "write true or false"}};
   }
   return {};
+}
+
+std::string separators(char separator) {
+  return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "separators";
+}
+
+// Whether the first column has no name, as R and pandas write the names of rows. No table has it as a column.
+bool begins_with_row_names(const detail::CsvRecord& header) {
+  return header.fields.size() > 1 && header.fields[0].value_or("").empty();
 }
 
 class Reader {
@@ -179,7 +188,9 @@ class Reader {
     source_.assign(columns_.size(), record.fields.size());
     std::unordered_map<std::string_view, std::size_t> position;
     for (std::size_t c = 0; c < columns_.size(); ++c) position.emplace(columns_[c].name, c);
-    for (std::size_t f = 0; f < record.fields.size() && diagnostics_.size() < kMaxDiagnosticsOfRow; ++f) {
+    has_row_names_ = begins_with_row_names(record);
+    for (std::size_t f = has_row_names_ ? 1 : 0; f < record.fields.size() && diagnostics_.size() < kMaxDiagnosticsOfRow;
+         ++f) {
       const std::string name = record.fields[f].value_or("");
       const auto column = position.find(name);
       if (column == position.end()) {
@@ -234,11 +245,15 @@ class Reader {
           record, std::min(num_fields_, record.fields.size()),
           {"E0505",
            "the row has " + std::to_string(record.fields.size()) + " cells, the header " + std::to_string(num_fields_),
-           record.separator == ';' ? "put text with semicolons in quotes, and keep the semicolons around empty cells"
-                                   : "put text with commas in quotes, and keep the commas around empty cells"});
+           "put text with " + separators(record.separator) + " in quotes, and keep the " +
+               separators(record.separator) + " around empty cells"});
       return;
     }
     const std::size_t before = diagnostics_.size();
+    if (has_row_names_ && !row_names_.insert(std::hash<std::string>{}(record.fields[0].value_or(""))).second) {
+      report(record, 0,
+             {"E0512", "column 1 has no name, and does not name the rows: this cell occurs twice", "name the column"});
+    }
     for (std::size_t c = 0; c < columns_.size() && diagnostics_.size() < before + kMaxDiagnosticsOfRow; ++c) {
       Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c], record.separator);
       if (parsed.fault) {
@@ -258,6 +273,8 @@ class Reader {
   std::vector<std::size_t> source_;
   std::size_t num_fields_ = 0;
   bool has_header_ = false;
+  bool has_row_names_ = false;
+  std::unordered_set<std::size_t> row_names_;  // hashes of those that occurred
   std::vector<Diagnostic> diagnostics_;
 };
 
@@ -305,11 +322,11 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
       report("E0508", "unbalanced quotes in the header",
              "put the whole name between quotes and write a quote inside it twice");
     }
-    for (const auto& field : record.fields) {
+    for (std::size_t f = begins_with_row_names(record) ? 1 : 0; f < record.fields.size(); ++f) {
       if (diagnostics.size() >= kMaxDiagnosticsOfRow) break;
-      const auto name = field.value_or("");
+      const auto name = record.fields[f].value_or("");
       if (name.empty()) {
-        report("E0512", "column " + std::to_string(columns.size() + 1) + " has no name", "name every column");
+        report("E0512", "column " + std::to_string(f + 1) + " has no name", "name every column");
       } else if (!is_text(name)) {
         report("E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8");
       } else if (!names.insert(name).second) {

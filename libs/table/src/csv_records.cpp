@@ -67,31 +67,38 @@ class Splitter {
   bool ended_ = false;
 };
 
+// "sep=;" in a line of its own, which spreadsheets write and read.
+bool says_separator(std::string_view text) {
+  return text.starts_with("sep=") && (text.substr(5, 1) == "\n" || text.substr(5, 2) == "\r\n");
+}
+
 bool is_blank(std::string_view line) { return line.find_first_not_of("\r\n") == std::string_view::npos; }
 
 }  // namespace
 
 char separator_of(std::string_view text) {
   const auto begin = std::min(text.find_first_not_of("\r\n"), text.size());
-  bool quoted = false, has_semicolon = false;
+  bool quoted = false;
+  char found = 0;
   for (const char c : text.substr(begin)) {
     if (c == '"') quoted = !quoted;
     if (quoted) continue;
     if (c == ',') return ',';
     if (c == '\n' || c == '\r') break;
-    has_semicolon = has_semicolon || c == ';';
+    if (c == ';' || (c == '\t' && found == 0)) found = c;
   }
-  return has_semicolon ? ';' : ',';
+  return found == 0 ? ',' : found;
 }
 
 void for_each_record(std::string_view text, const std::function<bool(const CsvRecord&)>& on_record) {
   CsvRecord record;
-  record.separator = separator_of(text);
+  const bool is_said = says_separator(text);
+  record.separator = is_said ? text[4] : separator_of(text);
   Splitter splitter{record.separator};
   std::size_t record_begin = 0;
-  std::size_t line_number = 0;
+  std::size_t line_number = is_said ? 1 : 0;
   bool is_open = false;
-  for (std::size_t begin = 0; begin < text.size();) {
+  for (std::size_t begin = is_said ? text.find('\n') + 1 : 0; begin < text.size();) {
     const std::size_t newline = text.find('\n', begin);
     const std::size_t end = newline == std::string_view::npos ? text.size() : newline + 1;
     const std::string_view line = text.substr(begin, end - begin);

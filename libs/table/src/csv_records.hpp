@@ -30,11 +30,12 @@ struct CsvPlace {
 };
 [[nodiscard]] CsvPlace locate(std::string_view record, std::size_t field, char separator);
 
-// What separates the fields of a text: a semicolon where its first line that is not blank has one outside quotes and
-// no comma, else a comma. Spreadsheets write semicolons where numbers have decimal commas.
+// What separates the fields of a text: a comma if its first line that is not blank has one outside quotes, else a
+// semicolon, else a tab. Spreadsheets write semicolons or tabs where numbers have decimal commas.
 [[nodiscard]] char separator_of(std::string_view text);
 
-// Calls back with every record that is not a blank line; stops when told false.
+// Calls back with every record that is not a blank line; stops when told false. A first line such as "sep=;" says what
+// separates fields and is no record.
 void for_each_record(std::string_view text, const std::function<bool(const CsvRecord&)>& on_record);
 
 }  // namespace kith::detail

@@ -317,6 +317,28 @@ TEST(CsvReader, TellsTheColumnsOfAnUnknownTable) {
   EXPECT_EQ(columns[1].name, "a,b");
 }
 
+TEST(CsvReader, TakesWhatRAndPandasAndSpreadsheetsWrite) {
+  const std::vector<Column> wanted{{.name = "who"}, {.name = "share", .type = ColumnType::kReal}};
+  for (const std::string_view text :
+       {"who,share\nA,0.5\nB,1.25\n", "\"\",\"who\",\"share\"\n\"1\",\"A\",0.5\n\"2\",\"B\",1.25\n",
+        ",who,share\n0,A,0.5\n1,B,1.25\n", "who\tshare\nA\t0.5\nB\t1,25\n", "sep=;\r\nwho;share\r\nA;0,5\r\nB;1,25\r\n",
+        "sep=,\nwho,share\nA,0.5\nB,1.25\n", "\xEF\xBB\xBFsep=\t\nwho\tshare\nA\t0.5\nB\t1.25\n"}) {
+    std::vector<TableCell> cells;
+    const auto keep = [&](const CsvRow& row) { cells.insert(cells.end(), row.cells.begin(), row.cells.end()); };
+    EXPECT_TRUE(read_csv(text, "t.csv", wanted, keep).empty()) << text;
+    EXPECT_EQ(cells, (std::vector<TableCell>{"A", 0.5, "B", 1.25})) << text;
+    EXPECT_EQ(read_csv_header(text, "t.csv").size(), 2u) << text;
+  }
+}
+
+TEST(CsvReader, RefusesRowNamesThatAreNone) {
+  const std::vector<Column> wanted{{.name = "who"}};
+  const auto faults = read_csv(",who\n1,A\n2,B\n1,C\n", "t.csv", wanted, [](const CsvRow&) {});
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].id, "E0512");
+  EXPECT_EQ(faults[0].line, 4u);
+}
+
 TEST(CsvReader, RefusesAHeaderWithoutNames) {
   const auto id_of = [](std::string_view text) -> std::string {
     try {

@@ -72,7 +72,7 @@ class Dataset {
   std::vector<ColumnKind> kinds_;
   std::vector<std::vector<std::optional<std::string>>> cells_;  // shape [columns][rows]
   std::vector<std::size_t> lines_;
-  bool decimal_comma_ = false;  // semicolons separate the cells
+  bool decimal_comma_ = false;  // commas do not separate the cells
 };
 
 }  // namespace kith

@@ -25,7 +25,7 @@ struct CsvRow {
   std::span<const TableCell> cells;     ///< One per column, each missing or of the column's type.
   std::string_view text;                ///< All of the row as written, a part of the text that is read.
   std::span<const std::size_t> fields;  ///< Per column, which cell of the row it is.
-  char separator = ',';                 ///< Between cells: ',' or ';'.
+  char separator = ',';                 ///< Between cells: ',', ';' or a tab.
 
   /// The cell of a column as written, quotes included (of several lines the first one): a part of the text that is
   /// read, so it says where the cell is.
@@ -35,7 +35,8 @@ struct CsvRow {
 
 /// true and false as kith and JSON write them, R (TRUE) and Python (True); nothing for any other text.
 [[nodiscard]] std::optional<bool> truth_of(std::string_view text);
-/// The text of a number with its only comma or point made a point, for tables whose cells semicolons separate.
+/// The text of a number with its only comma or point made a point, for tables whose cells are not
+/// separated by commas.
 [[nodiscard]] std::string with_decimal_point(std::string text);
 
 /// What to do with columns of a file that were not asked for.
@@ -44,8 +45,10 @@ enum class OtherColumns { kReject, kIgnore };
 /// Reads a CSV text (RFC 4180, UTF-8 with or without byte order mark, lines
 /// ending in LF or CRLF) that begins with a header. The columns may come in any
 /// order. `on_row` gets every row without a fault, in order; blank lines are
-/// skipped. Cells are separated by commas, or by semicolons if the header has semicolons and no comma; numbers may
-/// then have a decimal comma, as spreadsheets of many countries and R's write.csv2 write them.
+/// skipped. Cells are separated by commas; if the header has none, by semicolons or tabs, or by what a first line such as
+/// "sep=;" says. Numbers may then have a decimal comma, as spreadsheets of many countries and R's write.csv2 write them.
+/// A first column without a name holds the names of rows, as R and pandas write them: it is left out, and an error
+/// (E0512) if two of its cells are alike.
 ///
 /// @param file how diagnostics name the file.
 /// @param columns those that must be there.
@@ -58,7 +61,7 @@ enum class OtherColumns { kReject, kIgnore };
                                                const std::function<void(const CsvRow&)>& on_row,
                                                OtherColumns others = OtherColumns::kReject);
 
-/// The names of the columns, as text columns, of a CSV text whose columns are not known beforehand.
+/// The names of the columns, as text columns, of a CSV text whose columns are not known beforehand; without those of rows.
 /// @throws kith::Error (kInvalidInput) if the header is missing, damaged or names a column twice or not at all.
 [[nodiscard]] std::vector<Column> read_csv_header(std::string_view text, const std::string& file);
 
