@@ -47,6 +47,11 @@ const ModelText* NamedFiles::open(const std::string& name, const TomlPlace& plac
   }
   auto text = text_of(name, place);
   if (!text) return nullptr;
+  if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);  // a byte order mark
+  if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF")) {
+    report_.error("E0233", place, "the file '" + name + "' is UTF-16", "save it as UTF-8");
+    return nullptr;
+  }
   read_.push_back({name, *text});
   opened_.push_back(std::make_unique<ModelText>(ModelText{name, (files_.folder / name).string(), *std::move(text)}));
   return opened_.back().get();
@@ -54,7 +59,7 @@ const ModelText* NamedFiles::open(const std::string& name, const TomlPlace& plac
 
 std::vector<DomainFile> NamedFiles::take_read() {
   for (DomainFile& file : read_) {
-    if (!file.name.ends_with(".pgm") || !file.text.starts_with("P5")) continue;
+    if (!is_image_file(file.name) || !file.text.starts_with("P5")) continue;
     const ModelText text{file.name, file.name, std::move(file.text)};
     ModelReport ignored;  // what is wrong with it has been said
     const auto image = read_pgm(text, ignored);
@@ -80,7 +85,8 @@ bool NamedFiles::check_name(const std::string& name, const TomlPlace& place, con
     return false;
   }
   const auto& endings = kind.endings;
-  if (std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end()) return true;
+  const std::string ending = is_image_file(name) ? ".pgm" : path.extension().string();
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return true;
   report_.error("E0232", place, refusal, "its name ends in " + list_of(endings));
   return false;
 }

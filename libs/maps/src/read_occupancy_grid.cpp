@@ -15,6 +15,11 @@
 namespace kith::detail {
 namespace {
 
+std::string in_lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
 // A value of the table.
 struct YamlValue {
   std::vector<std::string> scalars;  // one, or those of a list
@@ -187,27 +192,41 @@ class OccupancyReader {
            "map_server writes 0.196 and 0.65");
     }
     check_mode();
-    check_keys();
+    note_other_keys();
     if (report_.num_errors() > errors_before) return std::nullopt;
 
     const auto image = read_image(*image_name);
     if (!image) return std::nullopt;
 
-    OccupancyGrid grid{image->width, image->height, {}};
-    grid.pixels.reserve(image->grey.size());
-    for (const std::uint8_t grey : image->grey) {
+    const auto occupancy = [&](std::uint8_t grey) {
       const double share = static_cast<double>(grey) / image->white;
       const double probability = negated ? share : 1.0 - share;
-      grid.pixels.push_back(probability > *occupied ? Occupancy::kOccupied
-                            : probability < *free   ? Occupancy::kFree
-                                                    : Occupancy::kUnknown);
-    }
+      return probability > *occupied ? Occupancy::kOccupied
+             : probability < *free   ? Occupancy::kFree
+                                     : Occupancy::kUnknown;
+    };
+    OccupancyGrid grid{image->width, image->height, {}};
+    grid.pixels.reserve(image->grey.size());
+    for (const std::uint8_t grey : image->grey) grid.pixels.push_back(occupancy(grey));
+    if (occupancy(kUnexplored) == Occupancy::kFree) note_unexplored(*image);
     return grid;
   }
 
  private:
+  // The grey that map_saver and slam_toolbox write where nothing was seen. 1 - 205 / 255 is just below .196.
+  static constexpr std::uint8_t kUnexplored = 205;
+
   void fail(std::size_t offset, const std::string& message, const std::string& hint) {
     report_.error("E0268", place_at(yaml_, offset), message, hint);
+  }
+
+  void note_unexplored(const GreyImage& image) {
+    const auto count = std::count(image.grey.begin(), image.grey.end(), kUnexplored);
+    if (count == 0) return;
+    report_.warning("W0208", place_at(yaml_, table_.at("free_thresh").offset),
+                    std::to_string(count) + (count == 1 ? " pixel is" : " pixels are") +
+                        " 205, which tools write for unexplored; this 'free_thresh' makes them free",
+                    "write 0.196 to keep the robot out of what was not explored");
   }
 
   // The value of a key that must be there and no list.
@@ -242,8 +261,9 @@ class OccupancyReader {
   bool read_negate() {
     const std::string* text = scalar("negate");
     if (text == nullptr) return false;
-    if (*text == "1" || *text == "true") return true;
-    if (*text != "0" && *text != "false") {
+    const std::string word = in_lower_case(*text);
+    if (word == "1" || word == "true") return true;
+    if (word != "0" && word != "false") {
       fail(table_.at("negate").offset, "'negate' must be 0 or 1, not '" + *text + "'",
            "0 means that black is occupied");
     }
@@ -260,24 +280,27 @@ class OccupancyReader {
   void check_mode() {
     if (!table_.contains("mode")) return;
     const std::string* mode = scalar("mode");
-    if (mode == nullptr || *mode == "trinary" || *mode == "scale") return;
+    if (mode == nullptr || in_lower_case(*mode) == "trinary" || in_lower_case(*mode) == "scale") return;
     fail(table_.at("mode").offset, "'mode' must be trinary or scale, not '" + *mode + "'",
          "in raw grids no value means that a cell is free or occupied");
   }
 
-  void check_keys() {
+  // map_server ignores them, too.
+  void note_other_keys() {
     static const std::vector<std::string> kKeys{"image",       "resolution",      "origin", "negate",
                                                 "free_thresh", "occupied_thresh", "mode"};
     for (const auto& [key, value] : table_) {
       if (std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end()) continue;
-      fail(value.key_offset, "unknown key '" + key + "'", suggestion(key, kKeys));
+      report_.warning("W0209", place_at(yaml_, value.key_offset), "key '" + key + "' is not used",
+                      suggestion(key, kKeys));
     }
   }
 
   // The image lies beside the YAML file or below.
   std::optional<GreyImage> read_image(const std::string& name) {
-    if (std::filesystem::path{name}.is_absolute()) {
-      fail(table_.at("image").offset, "the image '" + name + "' has an absolute path",
+    const bool is_elsewhere = name.starts_with("~") || name.find("://") != std::string::npos;
+    if (is_elsewhere || std::filesystem::path{name}.is_absolute()) {
+      fail(table_.at("image").offset, "the image '" + name + "' does not lie beside this file or below",
            "put the image beside the .yaml file and write only its name");
       return std::nullopt;
     }

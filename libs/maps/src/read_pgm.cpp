@@ -101,18 +101,22 @@ class PgmReader {
       if (!grey || !check_grey(*grey, image, last_)) return false;
       image.grey.push_back(static_cast<std::uint8_t>(*grey));
     }
-    return true;
+    skip_blanks();
+    if (at_ == text_.size()) return true;
+    fail(at_, "the image goes on behind its last pixel", "save it again, one image in a file");
+    return false;
   }
 
   // Bytes have no lines that could be shown: what is wrong with them is reported at the beginning of the file.
   bool read_bytes(GreyImage& image) {
     const std::size_t num_pixels = image.width * image.height;
-    const std::size_t begin = std::min(at_ + 1, text_.size());  // after a single blank
-    if (text_.size() - begin < num_pixels) {
-      fail(0,
-           "the image has " + std::to_string(text_.size() - begin) + " bytes of " + std::to_string(num_pixels) +
-               " pixels",
-           "save it again; the file is not complete");
+    std::size_t begin = std::min(at_ + 1, text_.size());  // after a single blank
+    // A header with the line ends of Windows, which other programs read as well.
+    if (text_.substr(at_, 2) == "\r\n" && text_.size() - begin == num_pixels + 1) ++begin;
+    const std::size_t num_bytes = text_.size() - begin;
+    if (num_bytes != num_pixels && !(num_bytes == num_pixels + 1 && text_.back() == '\n')) {
+      fail(0, "the image has " + std::to_string(num_bytes) + " bytes for " + std::to_string(num_pixels) + " pixels",
+           num_bytes < num_pixels ? "save it again; the file is not complete" : "save it again, one image in a file");
       return false;
     }
     for (std::size_t i = 0; i < num_pixels; ++i) {

@@ -14,8 +14,7 @@ std::size_t num_characters(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-// Images may be binary, and bytes that are not text cannot be shown.
-bool is_image(std::string_view name) { return name.ends_with(".pgm"); }
+// Bytes that are not text cannot be shown.
 bool is_plain(std::string_view line) {
   return std::all_of(line.begin(), line.end(), [](char c) { return c == '\t' || (c >= 0x20 && c < 0x7F); });
 }
@@ -35,10 +34,12 @@ void locate(Diagnostic& diagnostic, const ModelPlace& place) {
   diagnostic.length = std::max<std::size_t>(1, num_characters(text.substr(at, last_shown - at)));
   if (end < begin || end - begin > kLongestShownLine) return;
   const std::string_view line = text.substr(begin, end - begin);
-  if (!is_image(place.file->name) || is_plain(line)) diagnostic.source_line = line;
+  if (!is_image_file(place.file->name) || is_plain(line)) diagnostic.source_line = line;
 }
 
 }  // namespace
+
+bool is_image_file(std::string_view name) { return name.ends_with(".pgm") || name.ends_with(".PGM"); }
 
 ModelPlace place_at(const ModelText& file, std::size_t offset) {
   const std::string_view text = file.text;

@@ -87,6 +87,9 @@ class Scanner {
     if (text_.substr(0, 3) == "\xEF\xBB\xBF" && at_ == 0) {
       return here("E0105", "the file starts with a byte order mark", "save it as plain UTF-8");
     }
+    if (at_ == 0 && (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))) {
+      return here("E0105", "the file is UTF-16", "save it as UTF-8");
+    }
     return here("E0105", "non-ASCII character outside strings and comments", "put keys and text into \"quotes\"");
   }
 

@@ -16,6 +16,9 @@ struct ModelText {
   std::string text;
 };
 
+// Whether its name is that of an image, which may be binary.
+[[nodiscard]] bool is_image_file(std::string_view name);
+
 // Where in a file something stands, in bytes. Without a file: in no file in particular.
 struct ModelPlace {
   const ModelText* file = nullptr;
