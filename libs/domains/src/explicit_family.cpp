@@ -36,6 +36,7 @@ class MemberBuilder {
     note_dead_ends();
     find_reachable_states();
     if (!check_starts() || report_.num_errors() > before) return std::nullopt;
+    find_starts();
     return member();
   }
 
@@ -55,7 +56,7 @@ class MemberBuilder {
                       "a terminal state has no actions");
       }
       if (!one.initial) continue;
-      if (initial != nullptr) {
+      if (initial != nullptr && !model_.initial_may_repeat) {
         report_.error("E0259", one.place, "there is a second initial state; the first is '" + initial->key + "'",
                       "mark only one state as initial; others can be starts");
       }
@@ -95,7 +96,7 @@ class MemberBuilder {
     RawTransition* const outcomes = &raw_.transitions[choice.first];
     const RawState& from = state(outcomes[0].state);
     if (from.terminal) {
-      if (model_.terminals_may_have_rows) return;
+      if (model_.terminals_may_have_rows) return note_after_end(outcomes, choice.count);
       report_.error("E0254", place(outcomes[0].at),
                     "state '" + from.key + "' is terminal, so nothing happens there any more",
                     "remove its transitions, or do not mark it as terminal");
@@ -122,6 +123,19 @@ class MemberBuilder {
     if (!changes) return;
     ++first_choice_[outcomes[0].state + 1];
     choices_.push_back(choice);
+  }
+
+  void note_after_end(const RawTransition* outcomes, std::size_t count) {
+    const auto matters = [&](const RawTransition& one) {
+      const auto& row = model_.features.row(one.features);
+      return one.next != one.state || std::any_of(row.begin(), row.end(), [](double x) { return x != 0.0; });
+    };
+    if (noted_after_end_ || std::none_of(outcomes, outcomes + count, matters)) return;
+    noted_after_end_ = true;
+    report_.warning(
+        "W0210", place(outcomes[0].at),
+        "state '" + state(outcomes[0].state).key + "'" + in_mdp() + " ends an episode: what happens in it is left out",
+        "it is said for the first such state");
   }
 
   bool check_outcome(const RawTransition* outcomes, std::size_t i) {
@@ -280,6 +294,47 @@ class MemberBuilder {
     return false;
   }
 
+  // is_start_: the states that are declared; if none is, those that others lead to and where a robot enters. A table
+  // may have rows for states in which the robot never is.
+  void find_starts() {
+    const std::size_t n = raw_.states.size();
+    std::vector<bool> is_entered(n, false);
+    for (std::uint32_t c = 0; c < choices_.size(); ++c) {
+      if (!kept_[from(c)] || !live_[from(c)] || !is_safe(c)) continue;
+      for (std::uint32_t i = 0; i < choices_[c].count; ++i) {
+        const RawTransition& one = raw_.transitions[choices_[c].first + i];
+        if (one.next != one.state) is_entered[one.next] = true;
+      }
+    }
+
+    is_start_.assign(n, false);
+    bool has_any = false;
+    std::vector<std::uint32_t> apart;
+    for (std::uint32_t s = 0; s < n; ++s) {
+      if (!live_[s] || !kept_[s]) continue;
+      is_start_[s] = state(s).start || state(s).initial || (!has_starts_ && is_entered[s]);
+      has_any = has_any || is_start_[s];
+      if (!is_start_[s] && !has_starts_) apart.push_back(s);
+    }
+
+    if (apart.empty()) return;
+    if (has_any) return note_apart(apart);
+    for (const std::uint32_t s : apart) is_start_[s] = true;
+  }
+
+  void note_apart(const std::vector<std::uint32_t>& apart) {
+    constexpr std::size_t kMostNamed = 5;
+    std::string named;
+    for (std::size_t i = 0; i < std::min(apart.size(), kMostNamed); ++i) {
+      named += (i == 0 ? "'" : ", '") + state(apart[i]).key + "'";
+    }
+    report_.warning("W0211", state(apart.front()).place,
+                    "no other state" + in_mdp() + " leads to " + std::to_string(apart.size()) +
+                        (apart.size() == 1 ? " state" : " states") + ", so nothing is asked or shown from there: " +
+                        named + (apart.size() > kMostNamed ? ", ..." : ""),
+                    "mark as start or initial where the robot can begin");
+  }
+
   // Numbers the states: live ones first, then terminal ones, each in the order of the file.
   ExplicitMember member() {
     const std::size_t n = raw_.states.size();
@@ -327,8 +382,8 @@ class MemberBuilder {
         result.variables.insert(result.variables.end(), begin, begin + static_cast<std::ptrdiff_t>(num_variables));
       }
       if (i >= num_states) continue;
-      if (one.start || one.initial || !has_starts_) result.starts.emplace_back(i);
-      if (one.initial) initial = i;
+      if (is_start_[order[i]]) result.starts.emplace_back(i);
+      if (one.initial && !initial) initial = i;
     }
     result.initial = initial ? StateIndex{*initial} : result.starts.front();
   }
@@ -359,6 +414,8 @@ class MemberBuilder {
   std::vector<bool> live_;
   std::vector<bool> safe_;  // per choice
   std::vector<bool> kept_;
+  std::vector<bool> is_start_;
+  bool noted_after_end_ = false;
 };
 
 }  // namespace

@@ -166,7 +166,7 @@ std::vector<Case> cases() {
       {"no_item_to_pick_up", {{"discount = 1.0", "actions = [\"right\", \"pickup\"]"}}, "E0222 4:21"},
       {"no_moves", {{"discount = 1.0", "actions = [\"exit\"]"}}, "E0222 4:11", "\"up\""},
       {"wall_and_terrain", {{"\"wall\"", "{ wall = true, terrain = \"x\" }"}}, "E0223 9:1, W0201 9:1"},
-      {"bad_name", {{"terrain = \"rubble\"", "terrain = \"wet rubble\""}}, "E0213 10:1, E0225 10:19"},
+      {"bad_name", {{"terrain = \"rubble\"", "terrain = \"wet rubble\""}}, "E0225 10:19"},
       {"unused_symbol", {{"S.rG", "S..G"}}, "W0201 10:1, W0301 14:8"},
       {"dead_end",
        {{"S.rG", "SrxG"},
@@ -453,6 +453,12 @@ TEST(LoadDomain, ReadsAFileAndThrowsItsErrors) {
     EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
     EXPECT_EQ(error.diagnostics().at(0).file, path.string());
   }
+  try {
+    (void)load_domain(path.string().substr(0, path.string().size() - 5));
+    FAIL() << "there is no file without its ending";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostics().at(0).hint, "did you mean " + path.string() + "?");
+  }
   std::filesystem::remove(path);
   EXPECT_THROW((void)read_domain(path), Error);
   EXPECT_THROW((void)read_domain(folder), Error);
@@ -469,7 +475,7 @@ TEST(DomainErrorIds, AreAllTriggeredHere) {
   triggered.insert("E0116");  // load_domain, above
   for (const std::string& id : kith::testing::error_ids_in("domains")) {
     const bool of_models = (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" ||
-                           id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
+                           id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205" || id == "W0210" || id == "W0211";
     const bool of_layers = (id >= "E0265" && id < "E0300") || id == "W0206";
     // Those of models: model_errors_test; of layers and rasters: layers_test; of what was inferred: policy_file_test.
     EXPECT_TRUE(of_models || of_layers || id == "E0318" || id == "E0319" || triggered.contains(id)) << id;

@@ -162,9 +162,9 @@ std::vector<ModelCase> model_cases() {
        "known: init, deadlock, goal, start"},
       {"prism_rewards_elsewhere", prism, "ice.slip.trew", "1 0 0 1", "1 1 0 1", "E0252 ice.slip.trew 4:1",
        "no such transition in ice.tra"},
-      {"prism_rewards_of_another", prism, "ice.step.srew", "3 3", "4 3", "E0237 ice.step.srew 3:1", "it has 3 states"},
+      {"prism_rewards_of_another", prism, "ice.step.srew", "3 2", "4 2", "E0237 ice.step.srew 3:1", "it has 3 states"},
       {"prism_feature_unknown", prism, toml, "{ slip =", "{ slap =", "E0253 domain.toml 11:11", "no rewards"},
-      {"prism_reward_of_a_state_twice", prism, "ice.step.srew", "2 1\n", "1 2\n", "E0252 ice.step.srew 6:1",
+      {"prism_reward_of_a_state_twice", prism, "ice.step.srew", "1 1\n", "1 1\n1 2\n", "E0252 ice.step.srew 6:1",
        "the reward of this state is given twice"},
       {"prism_reward_of_a_transition_twice", prism, "ice.slip.trew", "1 0 0 1\n", "1 0 0 1\n1 00 0 2\n",
        "E0252 ice.slip.trew 5:1", "the reward of this transition is given twice"},
@@ -172,7 +172,14 @@ std::vector<ModelCase> model_cases() {
        "label 2 is named twice"},
       {"prism_labels_of_a_state_twice", prism, "ice.lab", "2: 2\n", "01: 2\n", "E0241 ice.lab 5:1",
        "state 1 is given twice"},
+      {"prism_interval", prism, "ice.tra", "1 0 0 1/4", "1 0 0 [0.2,0.3]", "E0236 ice.tra 3:7", "interval MDP"},
+      {"prism_rows", prism, "ice.tra", "0 0 1 1 go", "0 0 1:1 go", "E0236 ice.tra 2:5", "with rows", "-exportrows"},
+      {"prism_reward_of_an_end", prism, "ice.step.srew", "3 2\n", "3 3\n2 1\n", "W0210 ice.sta 4:1", "state 2"},
+      {"prism_way_out_of_an_end", prism, "ice.tra", "2 0 2 1", "2 0 0 1 go", "W0210 ice.tra 7:1", "left out"},
       // Gymnasium
+      {"gym_goes_on", gym, "ice.json", "\"2\": {\"0\": [[1.0, 2, 0, true]]", "\"2\": {\"0\": [[1.0, 1, -1, false]]",
+       "W0210 ice.json 4:14", "state 2 ends episodes"},
+      {"gym_utf16", gym, "ice.json", "{\"P\"", "\xFF\xFE{\"P\"", "E0233 domain.toml 8:8", "UTF-16", "UTF-8"},
       {"gym_broken", gym, "ice.json", "\"1\": {", "\"1\" {", "E0234 ice.json 3:6", "not valid JSON", "validator"},
       {"gym_key_twice", gym, "ice.json", "\"2\": {", "\"1\": {", "E0234 ice.json 4:2", "twice"},
       {"gym_deep", gym, "ice.json", "[[1.0, 1, -1.0, false]]", "[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]",
@@ -275,8 +282,41 @@ TEST(ModelErrors, SayThatAStartCannotEnd) {
 }
 
 TEST(ModelErrors, SayThatThereAreTwoInitialStates) {
-  auto texts = edited(kIcePrism, "ice.lab", "1: 3", "1: 0 3");
-  EXPECT_EQ(place_of(read_model_texts(texts).diagnostics.at(0)), "E0259 ice.sta 3:1");
+  auto texts = kIceCsv;
+  texts["states.csv"] = "state,terminal,initial\nbank,false,true\nice,false,true\nshore,true,false\n";
+  EXPECT_EQ(place_of(read_model_texts(texts).diagnostics.at(0)), "E0259 states.csv 3:1");
+
+  // PRISM has no other way to say that the robot may enter in several.
+  const auto several = sound_model(edited(kIcePrism, "ice.lab", "1: 3", "1: 0 3"));
+  EXPECT_EQ(several.initial_state(kFirst), StateIndex{0});
+}
+
+TEST(ModelErrors, AreNoneForAByteOrderMark) {
+  EXPECT_TRUE(read_model_texts(edited(kIceGym, "ice.json", "{\"P\"", "\xEF\xBB\xBF{\"P\"")).domain.has_value());
+  EXPECT_TRUE(read_model_texts(edited(kIcePrism, "ice.tra", "3 4 6",
+                                      "\xEF\xBB\xBF"
+                                      "3 4 6"))
+                  .domain.has_value());
+}
+
+// A table may have rows for states in which the robot never is, such as the cliff of Gymnasium's CliffWalking.
+TEST(ModelErrors, NameStatesThatNoOtherStateLeadsTo) {
+  auto texts = kIceCsv;
+  texts["states.csv"] = "state,terminal\nbank,false\nice,false\nreef,false\nshore,true\n";
+  texts["transitions.csv"] += "reef,go,ice,1,0,1\nreef,creep,reef,1,0,1\n";
+  const auto reading = read_model_texts(texts);
+  ASSERT_TRUE(reading.domain.has_value());
+  EXPECT_EQ(place_of(reading.diagnostics.at(0)), "W0211 states.csv 4:1");
+  EXPECT_THAT(reading.diagnostics.at(0).message, HasSubstr("'reef'"));
+  EXPECT_EQ(reading.domain->starts(kFirst).size(), 2u);
+
+  texts["states.csv"] = "state,terminal,start\nbank,false,true\nice,false,true\nreef,false,true\nshore,true,false\n";
+  EXPECT_EQ(sound_model(texts).starts(kFirst).size(), 3u);
+
+  // Where nothing else is left, they are all there is.
+  texts["states.csv"] = "state,terminal\nbank,false\nshore,true\n";
+  texts["transitions.csv"] = "state,action,next,slip,step\nbank,go,shore,0,1\nbank,creep,shore,1,1\n";
+  EXPECT_EQ(sound_model(texts).starts(kFirst).size(), 1u);
 }
 
 TEST(ModelErrors, SayThatMdpsShareTheirVariables) {
@@ -313,12 +353,12 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
 // Those of this page of the documentation; the others are those of grids.
 bool is_of_models(const std::string& id) {
   return (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" || id == "E0323" ||
-         id == "E0324" || id == "W0204" || id == "W0205";
+         id == "E0324" || id == "W0204" || id == "W0205" || id == "W0210" || id == "W0211";
 }
 
 TEST(ModelErrorIds, AreAllTriggeredHere) {
   std::set<std::string> triggered{"E0239", "E0242", "E0257", "E0259",
-                                  "E0260", "E0324", "W0204"};  // above, and explicit_model_test
+                                  "E0260", "E0324", "W0204", "W0211"};  // above, and explicit_model_test
   for (const ModelCase& c : model_cases()) {
     for (const Diagnostic& d : read_model_texts(edited(*c.base, c.file, c.from, c.to)).diagnostics)
       triggered.insert(d.id);

@@ -97,7 +97,7 @@ weights = { slip = -2, step = -1 }
     {"ice.sta", "(x)\n0:(0)\n1:(1)\n2:(2)\n"},
     {"ice.lab", "# Labels\n0=\"init\" 1=\"deadlock\" 2=\"goal\" 3=\"start\"\n0: 0 3\n1: 3\n2: 2\n"},
     {"ice.slip.trew", "# Reward structure \"slip\"\n# Transition rewards\n3 4 1\n1 0 0 1\n"},
-    {"ice.step.srew", "# Reward structure \"step\"\n# State rewards\n3 3\n0 1\n1 1\n2 1\n"}};
+    {"ice.step.srew", "# Reward structure \"step\"\n# State rewards\n3 2\n0 1\n1 1\n"}};
 
 inline const ModelTexts kIceGym{{"domain.toml", R"(schema = "kith.domain/1"
 id = "ice"

@@ -313,7 +313,10 @@ class GymReader {
   void make_transitions(const Value& root) {
     for (const GymOutcome& one : outcomes_) {
       const std::uint32_t from = alive_[one.state];
-      if (from == kNone) continue;  // after the end nothing happens
+      if (from == kNone) {  // after the end nothing happens
+        note_after_end(one);
+        continue;
+      }
       const auto action = number_of_action(one);
       if (!action) return;
       RawTransition transition;
@@ -338,6 +341,18 @@ class GymReader {
       mark(root, "initial");
     }
     mark(root, "starts");
+  }
+
+  // Gymnasium's tables often go on there; what never happens is left out, once with a word.
+  void note_after_end(const GymOutcome& one) {
+    const std::vector<double>& row = model_.features.row(one.features);
+    const bool is_plain =
+        one.next == one.state && std::all_of(row.begin(), row.end(), [](double x) { return x == 0.0; });
+    if (is_plain || noted_) return;
+    noted_ = true;
+    report_.warning("W0210", one.place,
+                    "state " + std::to_string(one.state) + " ends episodes: what happens in it is left out",
+                    "it is said for the first such state");
   }
 
   std::optional<std::uint32_t> number_of_action(const GymOutcome& one) {
@@ -406,6 +421,7 @@ class GymReader {
   RawMdp mdp_;
   std::optional<GymRewards> rewards_;
   std::uint32_t num_states_ = 0;
+  bool noted_ = false;
   std::vector<GymOutcome> outcomes_;
   std::vector<std::uint32_t> alive_;  // per state of the file: its number as a state in which something can be done
   std::vector<std::uint32_t> end_;    // and as the end of an episode

@@ -152,7 +152,7 @@ class PrismReader {
       mdp_.states[s].key = std::to_string(s);
       mdp_.states[s].place = {files_.transitions};
     }
-    while (lines.next() && !report_.is_full()) {
+    while (!stopped_ && lines.next() && !report_.is_full()) {
       if (!has_room(model_, lines.place(), report_) || mdp_.transitions.size() == kMaxTransitions) return false;
       add_transition(lines);
     }
@@ -179,6 +179,7 @@ class PrismReader {
 
   void add_transition(const Lines& lines) {
     const auto& words = lines.words();
+    if (!check_dialect(lines)) return;
     if (words.size() != 4 && words.size() != 5) {
       (void)malformed(lines.place(), "state, choice, next state, probability and perhaps an action");
       return;
@@ -207,6 +208,20 @@ class PrismReader {
     transition.at = static_cast<std::uint32_t>(lines.place(0).offset);
     transition.probability_at = static_cast<std::uint32_t>(lines.place(3).offset);
     mdp_.transitions.push_back(transition);
+  }
+
+  // Other exports than those of MDPs, transition by transition, are refused once.
+  bool check_dialect(const Lines& lines) {
+    const auto& words = lines.words();
+    const bool is_row = words.size() > 2 && words[2].find(':') != std::string_view::npos;
+    const bool is_interval = words.size() > 3 && words[3].front() == '[';
+    if (is_row) report_.error("E0236", lines.place(2), "this was exported with rows", "export without -exportrows");
+    if (is_interval) {
+      report_.error("E0236", lines.place(3), "the probabilities are intervals (an interval MDP); kith needs numbers",
+                    "choose a probability in each interval");
+    }
+    stopped_ = is_row || is_interval;
+    return !stopped_;
   }
 
   // PRISM allows several choices of one action in a state; people would not know which is meant.
@@ -350,8 +365,10 @@ class PrismReader {
     if (positions_.empty()) index_transitions();
     const auto action = action_of_.find({from, *choice});
     const auto at = action == action_of_.end() ? positions_.end() : positions_.find({from, action->second, *next});
-    if (at == positions_.end() && *next == from && *choice == 0 && action == action_of_.end())
-      return;  // left out above
+    if (at == positions_.end() && *next == from && *choice == 0 && action == action_of_.end()) {
+      if (reward != 0.0) state_rewards_[{from, feature}] += reward;  // of a state in which nothing can be done
+      return;
+    }
     if (at == positions_.end()) {
       report_.error("E0252", lines.place(), "there is no such transition in " + files_.transitions->name,
                     "export all files at once");
@@ -378,7 +395,21 @@ class PrismReader {
       }
       mdp_.transitions[i].features = model_.features.number_of(rows[i]);
     }
+    note_rewards_at_ends();
     model_.num_transitions += mdp_.transitions.size();
+  }
+
+  // Those of states from which nothing leads on are on no transition.
+  void note_rewards_at_ends() {
+    std::set<std::uint32_t> left;
+    for (const RawTransition& one : mdp_.transitions) left.insert(one.state);
+    for (const auto& [where, reward] : state_rewards_) {
+      if (reward == 0.0 || left.contains(where.first)) continue;
+      return report_.warning(
+          "W0210", mdp_.states[where.first].place,
+          "the reward of state " + std::to_string(where.first) + ", in which nothing can be done, is left out",
+          "it is said for the first such state");
+    }
   }
 
   // '0="init" 1="deadlock" 2="goal"', then "i: 0 2".
@@ -438,7 +469,7 @@ class PrismReader {
       if (at == names.end()) return void(malformed(lines.place(w), "the number of a label"));
       if (!files_.terminal.empty() && at->second == files_.terminal) state.terminal = true;
       if (!files_.start.empty() && at->second == files_.start) state.start = true;
-      if (at->second == "init") state.initial = true;
+      if (at->second == "init") state.initial = true;  // perhaps several
       if (files_.states == nullptr) state.place = lines.place(0);
     }
   }
@@ -457,6 +488,7 @@ class PrismReader {
   ModelReport& report_;
   RawMdp mdp_;
   std::uint32_t num_states_ = 0;
+  bool stopped_ = false;
   std::size_t num_lines_ = 0;                                                   // of transitions
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> action_of_;  // by state and choice
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> choice_of_;  // by state and action
@@ -469,6 +501,7 @@ class PrismReader {
 
 void read_prism_mdp(const PrismFiles& files, RawModel& model, ModelReport& report) {
   model.terminals_may_have_rows = true;
+  model.initial_may_repeat = true;
   PrismReader{files, model, report}.read();
 }
 

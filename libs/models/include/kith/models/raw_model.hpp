@@ -93,6 +93,7 @@ struct RawModel {
   std::vector<RawMdp> mdps;
   std::size_t num_transitions = 0;       // of all of them
   bool terminals_may_have_rows = false;  // as in formats in which every state has some
+  bool initial_may_repeat = false;       // the first one is where a robot enters
   bool outcomes_may_repeat = false;      // the same next state with different features
 
   void add(RawMdp& mdp, const RawTransition& transition) {
