@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -106,6 +107,24 @@ bool is_constant(const std::vector<double>& values) {
 
 bool is_binary(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0 || value == 1.0; });
+}
+
+// Levels that whoever reads them takes for the same word: "joint" and "Joint ".
+std::optional<std::string> note_on_similar_levels(const Factor& factor) {
+  std::map<std::string, std::string> seen;
+  for (const std::string& level : factor.levels) {
+    std::string plain;
+    for (const char c : level) {
+      if (c != ' ' && c != '\t') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    const auto [at, is_new] = seen.try_emplace(plain, level);
+    if (is_new) continue;
+    return fmt::format(
+        "{} has the levels '{}' and '{}', which differ only in capitals or blanks: mend the table if they "
+        "mean the same",
+        factor.name, at->second, level);
+  }
+  return std::nullopt;
 }
 
 // Numbers on the right are levels as all others are: no trend is fitted.
@@ -268,6 +287,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
         fmt::format("{} is {} in every row, so there is nothing to explain", formula.response, model.values.front()));
   for (const auto& factor : model.factors) {
     if (auto note = note_on_numbers_as_levels(factor)) prepared.notes.push_back(std::move(*note));
+    if (auto note = note_on_similar_levels(factor)) prepared.notes.push_back(std::move(*note));
   }
   find_groups(data, formula, question, prepared);
 
