@@ -167,11 +167,21 @@ ImportedLog import_lesson_log(const std::filesystem::path& folder, std::string_v
   std::int64_t number = 1;
   for (const auto& room : file.rooms()) {
     number = std::max(number, room.number + 1);
-    if (room_setup(Json::parse(room.setup)).id != log.setup.id) continue;
+    const std::string id = room_setup(Json::parse(room.setup)).id;
     auto batch = batch_of(log, room.number, now_us);
     const auto known = events_of(file, room.number);
     const auto shared = std::min(known.size(), batch.events.size());
-    if (std::equal(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shared), batch.events.begin())) {
+    const bool is_same =
+        std::equal(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shared), batch.events.begin());
+    if (id != log.setup.id) {
+      // No two people do the same at the same microseconds; the seal does not cover who they are.
+      if (is_same && shared > 0) {
+        refuse_run(ErrorKind::kUsage, "E1623", name, "the session has these answers already, as those of '" + id + "'",
+                   "a copy under another name is not another person");
+      }
+      continue;
+    }
+    if (is_same) {
       batch.rooms.clear();
       batch.events.erase(batch.events.begin(), batch.events.begin() + static_cast<std::ptrdiff_t>(shared));
       imported.events = batch.events.size();

@@ -129,6 +129,17 @@ TEST(LessonLog, ThatWentAnotherWayIsRefused) {
   EXPECT_EQ(id_of_refusal(scratch.path(), other.dump()), "E1623");
 }
 
+TEST(LessonLog, UnderAnotherNameIsNotAnotherPerson) {
+  const ScratchFolder scratch;
+  const auto session = lesson_study();
+  (void)import_lesson_log(scratch.path(), log_of(session).dump(), "answers.json", "kith test", 5);
+  for (const bool more : {false, true}) {
+    auto copy = log_of(session, more);
+    copy["setup"]["id"] = "somebody-else";
+    EXPECT_EQ(id_of_refusal(scratch.path(), copy.dump()), "E1623");
+  }
+}
+
 TEST(LessonLog, ThatWasChangedIsRefused) {
   const ScratchFolder scratch;
   const auto text = log_of(lesson_study()).dump();
