@@ -355,7 +355,8 @@ Domain load_domain(const std::string& name_or_path) {
   unknown.id = "E0116";
   unknown.file = name_or_path;
   unknown.message = "there is no built-in domain and no file of this name";
-  unknown.hint = suggestion(name_or_path, names);
+  const bool is_beside = std::filesystem::exists(name_or_path + ".toml", failure);
+  unknown.hint = is_beside ? "did you mean " + name_or_path + ".toml?" : suggestion(name_or_path, names);
   throw Error{{unknown}};
 }
 

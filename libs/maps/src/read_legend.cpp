@@ -64,6 +64,7 @@ class LegendReader {
   void read_long(const TomlTable& table, const TomlEntry& entry, Symbol& symbol) {
     TomlReader reader{table, entry.value.place(), std::string{"symbol '"} + symbol.glyph + "'", report_};
     SymbolContent& content = symbol.content;
+    has_bad_name_ = false;
 
     content.wall = reader.boolean("wall", Presence::kOptional).value_or(false);
     content.start = reader.boolean("start", Presence::kOptional).value_or(false);
@@ -89,7 +90,7 @@ class LegendReader {
     }
 
     reader.finish();
-    check(symbol);
+    check(symbol, has_bad_name_);
   }
 
   std::string name(TomlReader& reader, std::string_view key) {
@@ -116,11 +117,13 @@ class LegendReader {
   }
 
   void report_bad_name(const TomlValue& value, const std::string& text) {
+    has_bad_name_ = true;
     report_.error("E0225", value.place(), "'" + text + "' cannot be a name",
                   "use letters, digits, '_' and '-', as in 'quiet-hours'");
   }
 
-  void check(const Symbol& symbol) {
+  // @param has_bad_name  something is meant to be on it, but is called so that nobody can say it.
+  void check(const Symbol& symbol, bool has_bad_name) {
     const SymbolContent& content = symbol.content;
     if (content.wall && content.start) {
       report_.error("E0209", symbol.place, "the robot cannot start on a wall");
@@ -133,7 +136,7 @@ class LegendReader {
       report_.error("E0213", symbol.place, "the start cannot be optional");
     } else if (symbol.is_optional() && !content.destination.empty()) {
       report_.error("E0213", symbol.place, "a destination cannot be optional");
-    } else if (symbol.is_optional() && content.is_floor()) {
+    } else if (symbol.is_optional() && content.is_floor() && !has_bad_name) {
       report_.error("E0213", symbol.place, "there is nothing on the symbol that could be optional");
     }
   }
@@ -176,6 +179,7 @@ class LegendReader {
 
   FamilyMap& family_map_;
   TomlReport& report_;
+  bool has_bad_name_ = false;  // the symbol that is being read
 };
 
 }  // namespace

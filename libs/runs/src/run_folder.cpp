@@ -295,7 +295,14 @@ std::string program_of(const fs::path& path) {
 }
 
 // The files are those of the run, and yet this program reads another study in them, or none.
-[[noreturn]] void refuse_other_version(const fs::path& path) {
+[[noreturn]] void refuse_other_version(const fs::path& path, const StudyReading& reading) {
+  const auto error = std::find_if(reading.diagnostics.begin(), reading.diagnostics.end(),
+                                  [](const Diagnostic& d) { return d.severity == Severity::kError; });
+  if (error != reading.diagnostics.end()) {
+    refuse_run(ErrorKind::kMismatch, "E0608", path / "inputs",
+               "this run was made by " + program_of(path) + ", and this program cannot read its study: " + error->message,
+               "use that version; what was defined in Python is known only there");
+  }
   refuse_run(
       ErrorKind::kMismatch, "E0608", path / "inputs",
       "this run was made by " + program_of(path) + ", and the study that it froze means something else to this version",
@@ -316,11 +323,11 @@ StudyReading read_run_folder(const fs::path& path, const StudyKinds& kinds) {
   const auto expected = is_read ? run_digest(path) : digest_if_any(path);
   const bool is_as_written = expected && *expected == inputs_as_written(path, reading).digest();
   if (!is_read) {
-    if (is_as_written) refuse_other_version(path);
+    if (is_as_written) refuse_other_version(path, reading);
     return reading;
   }
   if (expected && *expected != freeze(reading).digest()) {
-    if (is_as_written) refuse_other_version(path);
+    if (is_as_written) refuse_other_version(path, reading);
     refuse_run(ErrorKind::kMismatch, "E0607", path / "inputs",
                "the inputs are not those of the run: they do not give the digest in its manifest or journal",
                "rerun the command that ran the study; if it was replacing other results, that finishes it");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/published_run.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "study_runs.hpp"

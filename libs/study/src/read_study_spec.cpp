@@ -137,7 +137,9 @@ class SpecReader {
     if (list == nullptr) return;
     std::vector<std::string> names;
     for (const auto& kind : kinds_.strategies) names.emplace_back(kind.name);
-    for (const auto& own : own_strategies_) names.push_back(own.name);
+    for (const auto& own : own_strategies_) {
+      if (std::find(names.begin(), names.end(), own.name) == names.end()) names.push_back(own.name);
+    }
     for (const auto& element : *list) {
       const auto& name = *element.string();
       auto strategy = strategy_called(name);
