@@ -66,7 +66,7 @@ function Bar({ server, reporter, status, onResearch }: BarProps): JSX.Element {
           {t(`door.${trouble}`)}
         </p>
       )}
-      <p>{t(isKept ? `file.${toldBy(status)}` : 'file.not_kept')}</p>
+      {server.stage !== 'consent' && <p>{t(isKept ? `file.${toldBy(status)}` : 'file.not_kept')}</p>}
       <Button onClick={() => void save()}>{t('file.save')}</Button>
       {isSure ? (
         <>
