@@ -63,8 +63,8 @@ std::size_t expect_said_is_shown(const Atlas& atlas) {
         }
       }
       for (const auto& bracket : one.brackets) {
-        if (bracket.low) EXPECT_TRUE(shown.implies(within(domain, bracket, *bracket.low, 1)));
-        if (bracket.high) EXPECT_TRUE(shown.implies(within(domain, bracket, *bracket.high, -1)));
+        EXPECT_TRUE(!bracket.low || shown.implies(within(domain, bracket, *bracket.low, 1)));
+        EXPECT_TRUE(!bracket.high || shown.implies(within(domain, bracket, *bracket.high, -1)));
         said += 2;
       }
       ++said;

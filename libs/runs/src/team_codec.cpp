@@ -97,6 +97,7 @@ class Members {
 
 class Encoder {
  public:
+  explicit Encoder(int layout) : layout_{layout} {}
   [[nodiscard]] int layout() const noexcept { return layout_; }
   void value(std::size_t x) { writer_.count(x); }
   void value(char x) { writer_.letter(x); }
@@ -131,7 +132,7 @@ class Encoder {
 
  private:
   ByteWriter writer_;
-  int layout_ = newest_layout();
+  int layout_;
 };
 
 class Decoder {
@@ -208,8 +209,8 @@ std::optional<std::string_view> unseal_record(std::size_t team, std::string_view
   return content;
 }
 
-std::string encode_team(const TeamRecord& record, std::string_view key) {
-  Encoder encoder;
+std::string encode_team(const TeamRecord& record, std::string_view key, std::optional<int> layout) {
+  Encoder encoder{layout.value_or(newest_layout())};
   encoder.value(static_cast<char>(encoder.layout()));
   encoder.value(record);
   return seal_record(record.address.team, std::move(encoder).take(), key);

@@ -213,7 +213,7 @@ TEST(RecordColumns, EveryLineIsKeptByTheJournal) {
 TEST(RecordColumns, AnotherLayoutHasAnotherNumber) {
   const MarkedTeam marked;
   const auto bytes = encode_team(marked.team, kMarkKey);
-  EXPECT_EQ(std::pair(static_cast<int>(bytes.front()), bytes.size()), std::pair(10, std::size_t{568}));
+  EXPECT_EQ(std::pair(static_cast<int>(bytes.front()), bytes.size()), std::pair(11, std::size_t{569}));
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ namespace kith {
 
 /// The record as sealed bytes, for the journal: the same record always gives the same bytes, on any machine. The team's
 /// address is left out, since its number tells it.
-[[nodiscard]] std::string encode_team(const TeamRecord& record, std::string_view key);
+/// @param layout  as a kith of that layout wrote it, which leaves out what came later (RecordColumn::since); from 8.
+[[nodiscard]] std::string encode_team(const TeamRecord& record, std::string_view key,
+                                      std::optional<int> layout = std::nullopt);
 
 /// Whether these are the bytes of that team's record, as they were written.
 [[nodiscard]] bool is_intact(std::size_t team, std::string_view bytes, std::string_view key);
