@@ -190,7 +190,7 @@ async function begin(): Promise<void> {
   update({});
 }
 
-const kAgreed = 'door.agreed';
+const kAgreed = 'visit.agreed';
 let learner = ''; // as the learning system knows them
 let hasLog = false;
 function start(): void {

@@ -70,8 +70,8 @@ function findApi(): { api: Api; version: Version } | null {
 }
 
 const isTrue = (reply: unknown): boolean => /^(true|1)$/i.test(String(reply));
-const kLearner = 'door.scorm.learner'; // for a system that does not answer a page that is loaded again
-const kOpen = 'door.scorm.open'; // the visit goes on over the next load
+const kLearner = 'visit.learner'; // for a system that does not answer a page that is loaded again
+const kOpen = 'visit.open'; // the visit goes on over the next load
 
 export function openScorm(): Door | null {
   const found = findApi();
