@@ -94,6 +94,7 @@ void LiveService::State::on_applied(HostedRoom& room, std::span<const RoomEvent>
       if (event.get<happening::Consented>() != nullptr || event.get<happening::Declined>() != nullptr)
         queries.erase({room.number(), static_cast<std::int64_t>(seat_of_actor(event.actor).value_or(0))});
       const std::string type{event.kind().word};
+      note_person(room.number(), event.actor, type, body_of(event));
       if (is_logged(event.actor, type)) {
         write_log(log_entry(room.number(), event.at_us, event.actor, type, body_of(event)));
       }

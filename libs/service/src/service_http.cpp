@@ -151,6 +151,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   const auto code = body.find("code");
   if (code == body.end() || !code->is_string()) return error_reply(400, "bad-body", "The request needs a code.");
   const auto query = collected_query(*study, body.value("query", Json{}));
+  const auto person = person_of(*study, query);
   {
     const std::lock_guard lock{mutex};
     const auto now = now_us();
@@ -192,6 +193,9 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     return error_reply(404, "no-room", "There is no group with this code.");
   }
 
+  // Whoever is asked in a browser that has joined before says so, unless the link itself tells people apart.
+  if (person.empty() && body.value("has_joined", Json{}) == true) return json_reply(200, {{"ask", true}});
+
   const auto take_seat = [&](const std::shared_ptr<HostedRoom>& room) {
     auto promise = std::make_shared<std::promise<std::int64_t>>();  // the seat, 0: none is free
     auto seat = promise->get_future();
@@ -209,15 +213,17 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     });
     return wait_for(std::move(seat));
   };
-  const auto give_link = [&](const std::shared_ptr<HostedRoom>& room, std::int64_t seat) {
-    one_at_a_time.unlock();
+  const auto give_link = [&](const std::shared_ptr<HostedRoom>& room, std::int64_t seat, bool is_new = true) {
     // Links that were made for the seat beforehand are void: two people must not share it.
     std::vector<std::string> former;
     {
       const std::lock_guard lock{mutex};
-      former = tokens->of_seat(room->number(), seat);
-      if (!query.empty()) queries[{room->number(), seat}] = query;
+      const Place place{room->number(), seat};
+      if (is_new) former = tokens->of_seat(room->number(), seat);  // else the older tab hears that another one is open
+      if (is_new && !query.empty()) queries[place] = query;
+      if (is_new && !person.empty()) seat_of_person[person] = place;
     }
+    one_at_a_time.unlock();
     auto promise = std::make_shared<std::promise<std::string>>();
     auto token = promise->get_future();
     make_link(room->number(), seat, [promise](const std::string& made) { promise->set_value(made); });
@@ -232,6 +238,22 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     if (!former.empty()) save(std::move(batch), [](bool) {});
     return json_reply(200, {{"token", *made}});
   };
+
+  // Who follows the link again comes back to their seat, wherever that is now.
+  std::shared_ptr<HostedRoom> former_room;
+  Place former_seat{};
+  if (!person.empty()) {
+    const std::lock_guard lock{mutex};
+    if (const auto known = seat_of_person.find(person); known != seat_of_person.end()) {
+      former_seat = place_of({.role = Role::kParticipant, .room = known->second.first, .seat = known->second.second});
+      if (const auto found = rooms.find(former_seat.first); found != rooms.end()) former_room = found->second;
+    }
+  }
+  if (former_room) {
+    record({}, "server", "returned", {{"room", room_id(former_seat.first)}, {"seat", former_seat.second}}, {},
+           [](bool) {});
+    return give_link(former_room, former_seat.second, false);
+  }
 
   for (const auto& room : open) {
     const auto seat = take_seat(room);

@@ -21,6 +21,7 @@ LogEntry entry_of(const StoredEvent& event) {
 
 // Why something happened that no facilitator gave a reason for.
 std::string reason_for(const std::string& type, const Json& body) {
+  if (type == "returned") return "followed the join link again: back in room " + text_at(body, "room");
   if (type == happening::Called::kKind.word) {
     return "takes over seat " + std::to_string(count_at(body, "for")) + " of room " + text_at(body, "room") +
            (text_at(body, "why") == "left" ? ", whose person left" : ", whose person was away for too long");
@@ -104,7 +105,7 @@ bool is_logged(std::string_view actor, std::string_view type) {
   if (actor == "facilitator") return true;
   const auto* kind = room_event_kind(type);
   if (kind != nullptr) return kind->is_logged;
-  return type == "turned-away" || type == "room-make" || type == "redacted";  // of the service
+  return type == "turned-away" || type == "returned" || type == "room-make" || type == "redacted";  // of the service
 }
 
 LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor, const std::string& type,
@@ -117,6 +118,25 @@ LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& act
   const bool is_about_seat = actor == "server" && seat != body.end() && seat->is_number_integer();
   if (is_about_seat) entry.actor = seat_actor(seat->get<std::size_t>());
   return entry;
+}
+
+std::string person_of(const LiveStudy& study, const Json& query) {
+  const auto& collected = study.group().collect_query;
+  const auto value = collected.empty() || !query.is_object() ? std::string{} : text_at(query, collected.front().c_str());
+  return value.find("{{") == std::string::npos ? value : std::string{};  // what the platform did not fill in
+}
+
+void LiveService::State::note_person(std::int64_t room, const std::string& actor, const std::string& type,
+                                     const Json& body) {
+  const auto is = [&](const RoomEventKind& kind) { return type == kind.word; };
+  const auto by_actor = static_cast<std::int64_t>(seat_of_actor(actor).value_or(0));
+  if (is(happening::Consented::kKind)) {
+    const auto person = person_of(*study, body.value("query", Json::object()));
+    if (!person.empty()) seat_of_person[person] = {room, by_actor};
+  }
+  if (!is(happening::Declined::kKind) && !is(happening::Released::kKind)) return;
+  const Place free{room, is(happening::Released::kKind) ? body.value("seat", std::int64_t{0}) : by_actor};
+  std::erase_if(seat_of_person, [&](const auto& one) { return one.second == free; });
 }
 
 std::string room_id(std::int64_t number) { return "r" + std::to_string(number); }
@@ -155,6 +175,7 @@ void LiveService::State::load_rooms() {
     if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
     if (event.room == 0) next_service_seq = event.seq + 1;
     if (event.room == 0 && event.message) seen_messages.insert(*event.message);
+    if (event.room != 0) note_person(event.room, event.actor, event.type, Json::parse(event.json));
     const bool is_seated = event.type == happening::Seated::kKind.word;
     if (event.room != 0 && (is_seated || event.type == happening::Joined::kKind.word)) {
       const auto body = Json::parse(event.json);

@@ -114,6 +114,7 @@ struct LiveService::State final : HostedRoom::Host {
   std::map<std::string, std::deque<std::int64_t>> wrong_codes;         // the same of codes that do not exist
   // By room and seat: query parameters of people who have not consented yet. They are stored with the consent.
   std::map<Place, Json> queries;
+  std::map<std::string, Place> seat_of_person;  // by person_of() what a platform says of them: the seat that they took
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
   std::string facilitator_token, observer_token;
   std::size_t num_facilitators = 0;
@@ -178,6 +179,8 @@ struct LiveService::State final : HostedRoom::Host {
 
   // service_rooms.cpp
   void load_rooms();
+  // Keeps `seat_of_person` up to date. The mutex is held.
+  void note_person(std::int64_t room, const std::string& actor, const std::string& type, const Json& body);
   // Has something that facilitators did written down in room 0, together with the rest of the batch.
   void record(StoreBatch batch, const std::string& actor, const std::string& type, const Json& body,
               const std::string& message, std::function<void(bool saved)> done);
@@ -243,6 +246,10 @@ struct LiveService::State final : HostedRoom::Host {
   void check_presence(std::int64_t now);
   void check_space(std::int64_t now);
 };
+
+// What tells a person apart from all others: the value of the first parameter that the study collects; empty if it is
+// not there.
+[[nodiscard]] std::string person_of(const LiveStudy& study, const Json& query);
 
 // Whether facilitators read of an event in their log: what they did, and who came and went.
 [[nodiscard]] bool is_logged(std::string_view actor, std::string_view type);

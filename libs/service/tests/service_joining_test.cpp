@@ -12,6 +12,7 @@ namespace {
 using testing::Group;
 using testing::is_stored;
 using testing::kQuestions;
+using testing::Page;
 using testing::play;
 using testing::ScratchFolder;
 using testing::small_study;
@@ -93,6 +94,72 @@ TEST(LiveService, DropsQueryParametersThatAreNoShortTexts) {
   }
   auto file = stored(stage);
   EXPECT_EQ(file.rooms().size(), 1u);
+}
+
+std::size_t num_people(Stage& stage) {
+  auto file = stored(stage);
+  std::size_t people = 0;
+  for (const auto& room : list_rooms(file)) people += room.joined;
+  return people;
+}
+
+// The page of whoever has that link, up to date.
+std::unique_ptr<Page> page_of(Stage& stage, const std::string& token) {
+  auto page = std::make_unique<Page>(token, "tab of " + token);
+  page->connect(stage.service());
+  stage.service().settle();
+  page->read();
+  return page;
+}
+
+// Recruitment platforms let people follow the link again; a second seat would be a ghost for whom others wait.
+TEST(LiveService, LeadsWhoFollowsTheLinkAgainBackToTheirSeat) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", small_study(kQuestions)};
+  const auto code = stage.join_code();
+  const Json query{{"PROLIFIC_PID", "pid-a"}};
+  const auto first = stage.join(code, query);
+  const auto person = page_of(stage, first);
+  const auto second = stage.join(code, query);
+  EXPECT_NE(second, first);
+  const auto again = page_of(stage, second);
+  again->ask(stage.service(), "consent", {{"accept", true}, {"version", "1"}});
+  stage.service().settle();
+  again->read();
+  EXPECT_EQ(again->stage(), "check");
+  EXPECT_NE(stage.join(code, {{"PROLIFIC_PID", "pid-b"}}), "");
+
+  // Also where the server was stopped meanwhile.
+  stage.restart();
+  const auto returned = page_of(stage, stage.join(code, query));
+  EXPECT_EQ(returned->stage(), "check");
+  stage.stop();
+  EXPECT_EQ(num_people(stage), 2u);
+}
+
+TEST(LiveService, GivesWhoDeclinedAndComesAgainANewSeat) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", small_study(kQuestions)};
+  const auto code = stage.join_code();
+  const Json query{{"PROLIFIC_PID", "pid-a"}};
+  const auto person = page_of(stage, stage.join(code, query));
+  person->ask(stage.service(), "consent", {{"accept", false}, {"version", "1"}});
+  stage.service().settle();
+  const auto again = page_of(stage, stage.join(code, query));
+  EXPECT_EQ(again->stage(), "consent");
+}
+
+TEST(LiveService, AsksWhoSeemsToHaveJoinedBefore) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", small_study(kQuestions)};
+  const auto join = [&](const Json& more) {
+    Json body{{"code", stage.join_code()}};
+    body.update(more);
+    return Json::parse(stage.post("/api/join", body).body);
+  };
+  EXPECT_TRUE(join({{"has_joined", false}}).contains("token"));
+  EXPECT_EQ(join({{"has_joined", true}}), Json({{"ask", true}}));
+  EXPECT_TRUE(join({{"has_joined", true}, {"query", {{"PROLIFIC_PID", "pid-a"}}}}).contains("token"));
 }
 
 TEST(LiveService, LimitsHowManyJoinFromOneAddress) {

@@ -57,6 +57,7 @@ export const limitName = (key: string): string => wordsOf(key.replace(/_s$/, '')
 const kLogged: Record<string, string> = {
   'room-make': 'made rooms',
   'link-revoke': 'revoked a link',
+  returned: 'came back',
   start: 'started the room',
   started: 'the group started',
   pause: 'paused the room',

@@ -1,6 +1,6 @@
 // Who this tab is: a token from the link's fragment, kept in this tab only.
 import { transport } from '../shared/transport';
-import { forget, keep, recall } from './storage';
+import { forget, keep, keepInBrowser, recall, recallInBrowser } from './storage';
 
 const pattern = /^[A-Za-z0-9_-]{8,200}$/;
 
@@ -27,6 +27,20 @@ export function knownToken(): { token: string | null; isOfLink: boolean } {
   return { token: recall<string>('token'), isOfLink: false };
 }
 
+// Who has joined from this browser, in any tab, and when: several people may share a computer.
+export interface JoinedHere {
+  token: string;
+  at: number; // milliseconds since 1970
+}
+
+const kLongest = 86_400_000; // a day
+
+export const joinedHere = (): JoinedHere[] => (recallInBrowser<JoinedHere[]>('joined') ?? []).filter((one) => Date.now() - one.at < kLongest);
+
+export function rememberJoining(token: string): void {
+  keepInBrowser('joined', [...joinedHere(), { token, at: Date.now() }].slice(-12));
+}
+
 // The address then has the token too, so that a bookmark or the history leads back to the session.
 export function becomeParticipant(token: string): void {
   keep('token', token);
@@ -34,6 +48,8 @@ export function becomeParticipant(token: string): void {
 }
 
 export function forgetParticipant(): void {
+  const token = recall<string>('token');
+  keepInBrowser('joined', joinedHere().filter((one) => one.token !== token));
   for (const key of ['token', 'outbox', 'drive', 'seen', 'sketch', 'shown', 'feedback', 'questions', 'dismissed', 'introduced', 'name']) forget(key);
   history.replaceState(null, '', '/');
 }

@@ -23,6 +23,23 @@ export function keep(key: string, value: unknown): void {
   }
 }
 
+// What all tabs of this browser know; nothing where it refuses storage.
+export function recallInBrowser<T>(key: string): T | null {
+  try {
+    return JSON.parse(localStorage.getItem(kPrefix + key) ?? 'null') as T | null;
+  } catch {
+    return null;
+  }
+}
+
+export function keepInBrowser(key: string, value: unknown): void {
+  try {
+    localStorage.setItem(kPrefix + key, JSON.stringify(value));
+  } catch {
+    // not allowed
+  }
+}
+
 // What somebody was driving, for `useDrive`.
 export const driveStore: DriveStore = { recall: () => recall<Kept>('drive'), keep: (kept) => keep('drive', kept) };
 

@@ -3,12 +3,13 @@ import type { JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
-import { codeOfLink } from '../session';
+import { codeOfLink, joinedHere, rememberJoining } from '../session';
 import { hasText, t } from '../../shared/texts';
 
 interface Reply {
   token?: string;
   full?: ParticipantView; // the page of somebody for whom there is no seat
+  ask?: boolean; // whether they are one of those who joined from this browser
   reason?: string;
   text?: string;
 }
@@ -26,11 +27,11 @@ const kByStatus: Record<number, string> = { 404: 'unknown', 409: 'started', 429:
 const queryOfLink = (): Record<string, string> =>
   Object.fromEntries([...new URLSearchParams(location.search)].filter(([name]) => name !== 'code'));
 
-async function join(code: string): Promise<Reply> {
+async function join(code: string, isAnother: boolean): Promise<Reply> {
   const reply = await fetch('/api/join', {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
-    body: JSON.stringify({ code, query: queryOfLink() }),
+    body: JSON.stringify({ code, query: queryOfLink(), has_joined: !isAnother && joinedHere().length > 0 }),
   });
   const body = (await reply.json().catch(() => ({}))) as Reply;
   return reply.ok ? body : { reason: kProblems[body.reason ?? ''] ?? kByStatus[reply.status] ?? 'failed' };
@@ -40,9 +41,13 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
   const [code, setCode] = useState(codeOfLink);
   const [problem, setProblem] = useState('');
   const [isJoining, setJoining] = useState(false);
+  const [isAsked, setAsked] = useState(false);
   const field = useRef<HTMLInputElement>(null);
   const submit = (event: Event): void => {
     event.preventDefault();
+    enter(false);
+  };
+  const enter = (isAnother: boolean): void => {
     if (isJoining) return;
     const typed = code.trim().toUpperCase();
     if (typed === '') {
@@ -52,15 +57,19 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
     }
     setProblem('');
     setJoining(true);
-    join(typed)
+    join(typed, isAnother)
       .then((reply) => {
-        if (reply.token) onToken(reply.token);
+        if (reply.token) {
+          rememberJoining(reply.token);
+          onToken(reply.token);
+        } else if (reply.ask) setAsked(true);
         else if (reply.full) onFull(reply.full);
         else setProblem(reply.reason ?? 'failed');
       })
       .catch(() => setProblem('unreachable'))
       .finally(() => setJoining(false));
   };
+  if (isAsked) return <WhoAreYou onReturn={onToken} onAnother={() => enter(true)} />;
   const why = `landing.${problem}`; // a reason of the server
   return (
     <>
@@ -100,6 +109,29 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
     </>
   );
 }
+
+// Several people may share a computer, so nobody is taken for somebody else without being asked.
+function WhoAreYou({ onReturn, onAnother }: { onReturn: (token: string) => void; onAnother: () => void }): JSX.Element {
+  const before = joinedHere();
+  return (
+    <>
+      <Heading>{t('landing.again.title')}</Heading>
+      <p class="lead">{t('landing.again.text')}</p>
+      <div class="choices">
+        {before.map(({ token, at }) => (
+          <button type="button" class="primary" key={token} onClick={() => onReturn(token)}>
+            {before.length === 1 ? t('landing.again.continue') : t('landing.again.continue_at', { time: clockTime(at) })}
+          </button>
+        ))}
+        <button type="button" class="plain" onClick={onAnother}>
+          {t('landing.again.another')}
+        </button>
+      </div>
+    </>
+  );
+}
+
+const clockTime = (at: number): string => new Date(at).toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
 
 function Licences(): JSX.Element {
   const place = useRef<HTMLDivElement>(null);
