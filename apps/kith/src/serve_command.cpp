@@ -338,7 +338,10 @@ int run(const ServeOptions& options, Console& console) {
   const auto address = serve_address(options);
   for (const auto& warning : address.warnings) console.warning(warning);
   const auto reading = reading_of(options);
-  if (!console.quiet()) show_warnings(reading, console);
+  if (!console.quiet()) {
+    show_warnings(reading, console);
+    console.show(warnings_for_people(reading.study->variants.front(), folder_of(options)));
+  }
   watch_signals();
   raise_file_limit();
   share_freed_memory();

@@ -8,7 +8,9 @@
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/live/live_study.hpp"
 #include "kith/present/json.hpp"
+#include "kith/store/session_study.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/toml/document.hpp"
 
@@ -18,6 +20,7 @@ namespace {
 struct ValidateOptions {
   std::vector<std::string> files;  ///< "-" is standard input.
   bool strict = false;             ///< Warnings count as errors.
+  bool live = false;               ///< Whether people can be taught.
 };
 
 struct Verdict {
@@ -38,24 +41,44 @@ Verdict check_domain(const InputText& input) {
   return verdict;
 }
 
-Verdict check_study(const InputText& input) {
+// What keeps people from being taught, as `kith serve` finds it.
+void check_for_people(const StudyReading& reading, const InputText& input, Verdict& verdict) {
+  try {
+    static_cast<void>(make_session_study(reading, input.folder));
+  } catch (const Error& error) {
+    if (!error.diagnostics().empty()) {
+      verdict.diagnostics.insert(verdict.diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+      return;
+    }
+    verdict.diagnostics.push_back({.id = "E1625",
+                                   .message = std::string{"people cannot be taught: "} + error.what(),
+                                   .file = input.name,
+                                   .hint = "kith serve refuses it for the same reason"});
+  }
+}
+
+Verdict check_study(const InputText& input, bool live) {
   const auto reading = parse_study(input.text, input.name, {{}, input.folder});
   Verdict verdict{"study", "", "", reading.diagnostics};
   if (reading.study) {
     verdict.id = reading.study->variants.front().id;
     verdict.content = fmt::format("{} teams in {}", team_addresses(*reading.study).size(), reading.domain->id());
+    for (auto& warning : warnings_for_people(reading.study->variants.front(), input.folder)) {
+      verdict.diagnostics.push_back(std::move(warning));
+    }
+    if (live) check_for_people(reading, input, verdict);
   }
   return verdict;
 }
 
-Verdict check(const std::string& file) {
+Verdict check(const std::string& file, bool live) {
   const auto input = read_named(file);
   const auto parsing = parse_toml(input.text, input.name);
   if (!parsing.document) return {"", "", "", parsing.diagnostics};
   const auto* schema = parsing.document->root.find("schema");
   const std::string name = schema != nullptr && schema->string() != nullptr ? *schema->string() : "";
   if (name.rfind("kith.domain/", 0) == 0) return check_domain(input);
-  if (name.rfind("kith.study/", 0) == 0) return check_study(input);
+  if (name.rfind("kith.study/", 0) == 0) return check_study(input, live);
   Diagnostic unknown;
   unknown.id = "E0106";
   unknown.file = input.name;
@@ -73,6 +96,7 @@ Verdict check(const std::string& file) {
 
 void declare(OptionList& list, ValidateOptions& options) {
   list.texts("files", options.files, "FILE", "Files or built-in names to check; '-' is standard input").required();
+  list.flag("--live", options.live, "Check also that people can be taught, as kith serve does");
   list.flag("--strict", options.strict, "Treat warnings as errors");
   list.json();
 }
@@ -82,7 +106,7 @@ int run(const ValidateOptions& options, Console& console) {
   Json files = Json::array();
   std::string text;
   for (const auto& file : options.files) {
-    auto verdict = check(file);
+    auto verdict = check(file, options.live);
     Json warnings = Json::array();
     for (auto& diagnostic : verdict.diagnostics) {
       if (options.strict) diagnostic.severity = Severity::kError;
@@ -110,9 +134,10 @@ int run(const ValidateOptions& options, Console& console) {
 }  // namespace
 
 void add_validate(Commands& commands) {
-  commands.add<ValidateOptions>(
-      "validate", "Check domain and study files",
-      {"kith validate my-domain.toml my-study.toml", "kith validate --strict --json domains/*.toml"}, declare, run);
+  commands.add<ValidateOptions>("validate", "Check domain and study files",
+                                {"kith validate my-domain.toml my-study.toml",
+                                 "kith validate --strict --json domains/*.toml", "kith validate --live my-study.toml"},
+                                declare, run);
 }
 
 }  // namespace kith::cli

@@ -247,6 +247,71 @@ std::vector<LiveCell> live_cells(const LiveStudy& study) {
   return cells;
 }
 
+namespace {
+
+// What is kept of people beside their answers, and what is not asked for: for pages that say so.
+Json stored_json(const GroupOptions& group) {
+  const bool has_text = std::ranges::any_of(
+      group.questions, [](const GroupQuestion& one) { return one.kind == GroupQuestion::Kind::kText; });
+  return {{"names", group.ask_name},
+          {"text", has_text},
+          {"questions", !group.questions.empty()},
+          {"query", group.collect_query},
+          {"screening", group.screening.tests > 0},
+          {"discussion", group.discussion.choice.is_held()}};
+}
+
+// "(MINUTES)" or "[your address]": what a template leaves to its author.
+std::optional<std::string> placeholder_in(const std::string& text) {
+  for (const auto& [open, close] : {std::pair{'(', ')'}, std::pair{'[', ']'}}) {
+    for (auto begin = text.find(open); begin != std::string::npos; begin = text.find(open, begin + 1)) {
+      const auto end = text.find(close, begin);
+      if (end == std::string::npos) break;
+      const auto inner = text.substr(begin + 1, end - begin - 1);
+      const bool is_link = close == ']' && text.substr(end + 1, 1) == "(";
+      const bool has_letters = inner.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != std::string::npos;
+      const bool is_shouted = inner.size() > 2 && has_letters &&
+                              inner.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ ,/-") == std::string::npos;
+      if (is_shouted || (open == '[' && !is_link && !inner.empty())) return text.substr(begin, end - begin + 1);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> warnings_for_people(const StudySpec& spec, const std::filesystem::path& folder) {
+  const auto& group = spec.group;
+  std::vector<Diagnostic> warnings;
+  const auto warn = [&](const std::string& id, const std::string& file, const std::string& message,
+                        const std::string& hint) {
+    warnings.push_back({.severity = Severity::kWarning, .id = id, .message = message, .file = file, .hint = hint});
+  };
+  auto texts = group.consent_text;
+  std::string file;
+  if (!group.consent_file.empty()) {
+    file = (folder / group.consent_file).string();
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(file, failure)) {
+      warn("W1601", file, "the file of the consent text cannot be read",
+           "kith serve needs it; write it beside the study");
+    } else {
+      texts = paragraphs_of(read_live_file(file, "consent_file"));
+    }
+  }
+  if (!group.language.empty() && !std::filesystem::is_regular_file(folder / group.language)) {
+    warn("W1601", (folder / group.language).string(), "the file of the page's language cannot be read",
+         "kith serve needs it; write it beside the study");
+  }
+  texts.insert(texts.end(), group.story.begin(), group.story.end());
+  texts.push_back(group.goal);
+  for (const auto& text : texts) {
+    const auto found = placeholder_in(text);
+    if (found) warn("W1602", file, "participants would read '" + *found + "'", "write what belongs there");
+  }
+  return warnings;
+}
+
 Json live_study_json(const LiveStudy& study) {
   Json strategies = Json::array(), types = Json::array(), compositions = Json::array();
   std::size_t size = 0;
@@ -271,6 +336,7 @@ Json live_study_json(const LiveStudy& study) {
             {"size", size},
             {"dropout", std::string{name_of(group.dropout.policy)}},
             {"grace_s", group.dropout.grace_s},
+            {"stores", stored_json(group)},
             {"time", Json::object()}};
   for (const auto& key : kGroupTimeKeys) info["time"][std::string{key.name}] = group.time.*key.member;
   return info;

@@ -247,6 +247,45 @@ TEST(LiveStudy, TellsFacilitatorsWhichRoomsTheDesignHas) {
   EXPECT_EQ(json["size"], 3);
 }
 
+// What pages say about data follows from the keys that change what is kept.
+TEST(LiveStudy, SaysWhatIsStored) {
+  const auto plain = live_study_json(*live_study("[group]\nsize = 2\n")).at("stores");
+  const std::map<std::string, std::string> keys{
+      {"names", "ask_name = true"},
+      {"query", "collect_query = [\"PID\"]"},
+      {"questions", "questions = [{ id = \"a\", kind = \"likert\", text = \"Clear?\" }]"},
+      {"text", "questions = [{ id = \"a\", kind = \"text\", text = \"Else?\" }]"},
+      {"screening", "[group.screening]\ntests = 2"},
+      {"discussion", "[group.discussion]\nmodel = \"majority\""}};
+  for (const auto& [name, key] : keys) {
+    const auto told = live_study_json(*live_study("[group]\nsize = 2\n" + key + "\n")).at("stores");
+    EXPECT_NE(told.at(name), plain.at(name)) << key;
+  }
+  EXPECT_EQ(plain.size(), keys.size());
+  const auto consent = [](const std::string& key) { return live_study("[group]\n" + key)->group().consent_text; };
+  EXPECT_GT(consent("collect_query = [\"PID\"]\n").size(), consent("").size());
+}
+
+TEST(LiveStudy, WarnsOfWhatATemplateLeftOpen) {
+  const auto warnings = [](const std::string& text) {
+    auto spec = live_study()->spec;
+    spec.group.consent_text = {text};
+    const auto found = warnings_for_people(spec);
+    return found.empty() ? std::string{} : found.front().message;
+  };
+  EXPECT_EQ(warnings("It takes (MINUTES) minutes."), "participants would read '(MINUTES)'");
+  EXPECT_EQ(warnings("Ask (NAME, ADDRESS)."), "participants would read '(NAME, ADDRESS)'");
+  EXPECT_EQ(warnings("Ask [the name of your board]."), "participants would read '[the name of your board]'");
+  for (const auto* sound :
+       {"It takes (about) ten minutes (UK).", "See [our page](https://example.org).", "(1) and [] and (("}) {
+    EXPECT_EQ(warnings(sound), "") << sound;
+  }
+  auto spec = live_study()->spec;
+  spec.group.consent_file = "no-such-file.md";
+  ASSERT_EQ(warnings_for_people(spec, "/nowhere").size(), 1u);
+  EXPECT_EQ(warnings_for_people(spec, "/nowhere")[0].id, "W1601");
+}
+
 // What links of recruitment platforms carry is stored only if the study asks for it.
 TEST(LiveStudy, CollectsTheQueryParametersThatItNames) {
   const auto study = live_study("[group]\ncollect_query = [\"PID\", \"SESSION\"]\n");

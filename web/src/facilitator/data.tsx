@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useContext, useState } from 'preact/hooks';
 import { duration } from '../shared/duration';
 import { clockText, useNow } from './clock';
-import { isObject, type FacilitatorView, type Integrity } from './protocol';
+import { isObject, type FacilitatorView, type Integrity, type StudyInfo } from './protocol';
 import { ApiContext } from './setup/link_box';
 import { Explained } from './tip';
 import { kStages, roomTitle } from './words';
@@ -29,7 +29,7 @@ export function Data({ view }: { view: FacilitatorView }): JSX.Element {
     <div class="page data">
       <Counters integrity={view.integrity} isFacilitator={view.role === 'facilitator'} />
       {view.role === 'facilitator' && <Export view={view} />}
-      <Stored />
+      <Stored stores={view.study.stores} />
     </div>
   );
 }
@@ -139,23 +139,27 @@ function Export({ view }: { view: FacilitatorView }): JSX.Element {
   );
 }
 
-const kStored: [string, string][] = [
+const storedOf = ({ names, text, questions, query, screening, discussion }: StudyInfo['stores']): [string, string][] => [
   ['Consent', 'which version was accepted, and when; of those who decline, only their number'],
   ['Answers', 'the path, the keys with their times, the time taken, right or wrong, regret'],
   ['Lessons', 'what was shown and why, and a checksum of the beliefs, so that a session can be recomputed and compared'],
   ['Presence', 'when someone was connected, away or back'],
-  ['Recruitment parameters', 'parameters of the join link that the study asks for, such as an anonymous id'],
-  ['Names and free text', 'only if the study asks for them; kith session redact erases them'],
+  ...(screening ? [['Screening', 'the answers before the group begins'] satisfies [string, string]] : []),
+  ...(discussion ? [['Discussions', 'what each person chose after seeing the answers of the group'] satisfies [string, string]] : []),
+  ...(questions ? [['Questions', `the answers at the end${text ? ', some in people\u2019s own words' : ''}`] satisfies [string, string]] : []),
+  ...(query.length > 0 ? [['Recruitment parameters', `of the join link: ${query.join(', ')}`] satisfies [string, string]] : []),
+  ...(names ? [['Names', 'what people enter'] satisfies [string, string]] : []),
   ['Controls', 'everything that a facilitator does on this page, with the reason'],
-  ['Not stored', 'network addresses, browser names (unless the study asks for them), and links (only a hash of each)'],
+  ['Not stored', ['network addresses', 'browser names', ...(names ? [] : ['names']), ...(query.length > 0 ? [] : ['parameters of the join link']), 'links (only a hash of each)'].join(', ')],
+  ['Erasing', 'kith session redact erases names and people\u2019s own words, or one person'],
 ];
 
-function Stored(): JSX.Element {
+function Stored({ stores }: { stores: StudyInfo['stores'] }): JSX.Element {
   return (
     <section aria-labelledby="stored-title">
       <h2 id="stored-title">What is stored</h2>
       <dl class="facts">
-        {kStored.map(([what, text]) => (
+        {storedOf(stores).map(([what, text]) => (
           <>
             <dt>{what}</dt>
             <dd>{text}</dd>

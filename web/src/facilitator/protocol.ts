@@ -20,6 +20,8 @@ export interface StudyInfo {
   types: { letter: string; label: string }[];
   dropout: string;
   grace_s: number;
+  // What is kept of people beside their answers.
+  stores: { names: boolean; text: boolean; questions: boolean; query: string[]; screening: boolean; discussion: boolean };
   time: Record<string, number>;
   size?: number; // seats of a room unless said otherwise
 }

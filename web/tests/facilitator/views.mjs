@@ -211,6 +211,7 @@ export function makeView({ role = 'facilitator', rooms = 8, sizes = [3, 12, 1], 
       types: kTypes,
       dropout: 'pause-then-continue',
       grace_s: 90,
+      stores: { names: true, text: true, questions: true, query: ['PROLIFIC_PID'], screening: false, discussion: false },
       time: { watch_s: 0, predict_s: 0, feedback_s: 0, lobby_s: 1200, leave_after_s: 300, max_minutes: 60 },
     },
     links: {

@@ -46,15 +46,29 @@ export function NextStep({ children }: { children: ComponentChildren }): JSX.Ele
   );
 }
 
+// Texts of a study: paragraphs, and what their authors mark as in Markdown, headings, items of lists and bold words.
 export function Paragraphs({ texts }: { texts: string[] }): JSX.Element {
-  return (
-    <>
-      {texts.map((text) => (
-        <p>{text}</p>
-      ))}
-    </>
-  );
+  const parts: JSX.Element[] = [];
+  let items: string[] = [];
+  const endList = (): void => {
+    if (items.length > 0) parts.push(<ul>{items.map((item) => <li>{marked(item)}</li>)}</ul>);
+    items = [];
+  };
+  for (const text of texts) {
+    const heading = /^#{1,6}\s+(.*)$/s.exec(text)?.[1];
+    const item = /^[*-]\s+(.*)$/s.exec(text)?.[1];
+    if (item !== undefined) {
+      items.push(item);
+      continue;
+    }
+    endList();
+    parts.push(heading === undefined ? <p>{marked(text)}</p> : <h2>{marked(heading)}</h2>);
+  }
+  endList();
+  return <>{parts}</>;
 }
+
+const marked = (text: string): ComponentChildren => text.split(/\*\*(.+?)\*\*/s).map((part, i) => (i % 2 === 1 ? <strong>{part}</strong> : part));
 
 // Where the clipboard may not be used (pages without TLS), the text is selected for the reader to copy.
 async function copy(text: string, shown: HTMLElement | null): Promise<boolean> {

@@ -54,6 +54,12 @@ struct LiveStudy {
                                                                const std::filesystem::path& folder = {},
                                                                std::string domain_text = {});
 
+/// What people would miss or wonder about: files of texts that are not there (W1601), and places that a template left
+/// to its author (W1602).
+/// @param folder  as of make_live_study().
+[[nodiscard]] std::vector<Diagnostic> warnings_for_people(const StudySpec& spec,
+                                                          const std::filesystem::path& folder = {});
+
 /// The cells of the design that rooms are made for in turn: strategies within compositions, without those that cannot
 /// be taught together (the baseline teaches one person).
 struct LiveCell {
@@ -64,8 +70,8 @@ struct LiveCell {
 [[nodiscard]] std::vector<LiveCell> live_cells(const LiveStudy& study);
 
 /// {id, title, domain, strategies: [{name, description}], types: [{letter, label}], compositions, size, dropout,
-/// grace_s, time}: what the facilitator's page says about the study. `compositions` are those of live_cells(), `size`
-/// is the number of seats of the largest.
+/// grace_s, stores, time}: what the facilitator's page says about the study. `compositions` are those of live_cells(),
+/// `size` is the number of seats of the largest.
 [[nodiscard]] Json live_study_json(const LiveStudy& study);
 
 /// {lang, dir, strings}: texts of pages that differ from the built-in English ones.
