@@ -1,6 +1,7 @@
 """Sessions, event by event; teaching as an environment."""
 
 import copy
+import importlib.util
 import threading
 import unittest
 
@@ -185,7 +186,7 @@ class Environment(unittest.TestCase):
         with self.assertRaises(ValueError):
             env.step(-1)
 
-    @unittest.skipUnless(__import__("importlib").util.find_spec("gymnasium"), "Gymnasium is not installed")
+    @unittest.skipUnless(importlib.util.find_spec("gymnasium"), "Gymnasium is not installed")
     def test_gymnasiums_checker_passes(self):
         import subprocess
         import sys

@@ -87,6 +87,11 @@ TEST(Room, RefusesASetUpThatCannotBeTaught) {
                         .salt = "s"};
   EXPECT_EQ(room_setup(to_json(setup)), setup);
   EXPECT_THROW((void)room_setup(Json::array()), Error);
+  // Rooms of before there was such a rule choose their lessons without it when they are repeated.
+  auto old = to_json(setup);
+  EXPECT_TRUE(room_setup(old).avoids_repeats);
+  old.erase("avoids_repeats");
+  EXPECT_FALSE(room_setup(old).avoids_repeats);
 }
 
 TEST(Room, AsksScreeningTestsBeforeTheLobby) {
