@@ -16,7 +16,7 @@ export interface Log {
 // Of one learner, where the system around the page says who it is.
 const place = (file: LessonFile, learner: string): string => `kith.lesson.${file.digest}${learner && `.${learner}`}`;
 
-const kOfVisit = 'kith.door.'; // what belongs to a visit to a learning system, which goes on
+const kOfVisit = 'kith.visit.'; // what belongs to a visit to a learning system, which goes on
 const tab = uuid(); // of this page, not of the tab: a duplicated tab has the same storage
 
 /** From now on this tab keeps the lesson; those that have it open, too, do not any more. */

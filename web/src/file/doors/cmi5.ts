@@ -50,7 +50,7 @@ class Store {
   // The system hands the token out once: it is kept for a reload.
   static async open(query: URLSearchParams): Promise<Store> {
     const get = (name: string): string => query.get(name) ?? '';
-    const place = `door.token.${get('registration')}.${get('fetch')}`;
+    const place = `visit.token.${get('registration')}.${get('fetch')}`;
     let token = recall<string>(place);
     if (!token) {
       const reply = await fetch(get('fetch'), { method: 'POST' });
@@ -154,10 +154,10 @@ export async function openCmi5(): Promise<Door | null> {
   const kept = await store.state('kith');
   let told: Told = { ...kNothing, hasPassed: false, hasCompleted: false, ...(kept ? (JSON.parse(kept) as Partial<Told>) : {}) };
   const session = String(launch.contextTemplate.extensions?.[kSession]);
-  const terminated = `door.terminated.${session}`;
-  const failed = `door.failed.${session}`; // told of a failure, a visit cannot be told of a pass any more
+  const terminated = `visit.terminated.${session}`;
+  const failed = `visit.failed.${session}`; // told of a failure, a visit cannot be told of a pass any more
   await store.readPreferences();
-  const initialized = `door.initialized.${session}`;
+  const initialized = `visit.initialized.${session}`;
   if (!recall(initialized)) {
     await store.tell([statements.of('initialized', { isDefined: true })]); // once a session
     keep(initialized, true);
