@@ -38,7 +38,6 @@ std::shared_ptr<const Session> make_session(const LiveStudy& study, const RoomSe
   options.keep_members = true;  // facilitators see all beliefs, and may change the strategy
   options.keep_rules = true;
   options.avoids_repeats = setup.avoids_repeats;
-  options.avoids_shortest = setup.avoids_repeats;
   const auto team = team_stream(study.spec, address_of(setup));
   std::vector<RandomStream> beliefs;
   for (std::size_t m = 0; m < setup.composition.size(); ++m) {

@@ -28,8 +28,7 @@ struct RoomSetup {
   /// Nobody is taught here: people are screened and wait until a group can be formed of them, see Room::next_group().
   /// Strategy and composition say nothing then.
   bool is_waiting_list = false;
-  /// TeachingOptions::avoids_repeats and avoids_shortest; rooms that were set up before there was such a rule do
-  /// without.
+  /// TeachingOptions::avoids_repeats; rooms that were set up before there was such a rule do without.
   bool avoids_repeats = true;
 
   friend bool operator==(const RoomSetup&, const RoomSetup&) = default;
