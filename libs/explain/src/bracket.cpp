@@ -53,7 +53,7 @@ std::string rounded(const Ratio& ratio, std::size_t decimals, bool up) {
   std::string digits;
   for (; whole != 0 || digits.size() <= decimals; whole /= 10)
     digits += static_cast<char>('0' + static_cast<int>(whole % 10));
-  std::ranges::reverse(digits);
+  std::reverse(digits.begin(), digits.end());
   if (decimals == 0) return digits;
   digits.insert(digits.size() - decimals, 1, '.');
   digits.erase(digits.find_last_not_of('0') + 1);
