@@ -131,7 +131,8 @@ Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
   return infeasible(
       "E1112",
       fmt::format("{} of '{}' cannot be written as a domain file of its own", world_text(domain, world), domain.id()),
-      domain.map() ? "its worlds are listed, or share layers: write its [map] by hand, one map and nothing optional" : by_export);
+      domain.map() ? "its worlds are listed, or share layers: write its [map] by hand, one map and nothing optional"
+                   : by_export);
 }
 
 // The world as a domain file of its own.

@@ -26,7 +26,8 @@ void fill_in_texts(GroupOptions& group, const Domain& domain) {
       group.consent_text.emplace_back("If you type in a name, only the people who run this session see it.");
     }
     if (!group.collect_query.empty()) {
-      group.consent_text.emplace_back("The platform that invited you passes on a code for you, which is recorded, too.");
+      group.consent_text.emplace_back(
+          "The platform that invited you passes on a code for you, which is recorded, too.");
     }
     if (group.dropout.without_reserve() == DropoutPolicy::kSimulate) {
       group.consent_text.emplace_back("If somebody in your group stops early, a computer program may take that place.");

@@ -299,9 +299,10 @@ std::string program_of(const fs::path& path) {
   const auto error = std::find_if(reading.diagnostics.begin(), reading.diagnostics.end(),
                                   [](const Diagnostic& d) { return d.severity == Severity::kError; });
   if (error != reading.diagnostics.end()) {
-    refuse_run(ErrorKind::kMismatch, "E0608", path / "inputs",
-               "this run was made by " + program_of(path) + ", and this program cannot read its study: " + error->message,
-               "use that version; what was defined in Python is known only there");
+    refuse_run(
+        ErrorKind::kMismatch, "E0608", path / "inputs",
+        "this run was made by " + program_of(path) + ", and this program cannot read its study: " + error->message,
+        "use that version; what was defined in Python is known only there");
   }
   refuse_run(
       ErrorKind::kMismatch, "E0608", path / "inputs",

@@ -289,9 +289,10 @@ TEST_F(RunFolderTest, SaysThatARunIsOfAnotherVersion) {
   EXPECT_EQ(refusal_of_run(root_ / "other"),
             "E0608: this run was made by kith 0.0.9 (abc1234), and the study that it froze means something else to "
             "this version");
-  EXPECT_THAT(refusal_of_run(root_ / "refused"),
-              ::testing::StartsWith("E0608: this run was made by kith 0.0.9 (abc1234), and this program cannot read its "
-                                    "study: "));
+  EXPECT_THAT(
+      refusal_of_run(root_ / "refused"),
+      ::testing::StartsWith("E0608: this run was made by kith 0.0.9 (abc1234), and this program cannot read its "
+                            "study: "));
   // A file that was changed is something else.
   publish(root_ / "run", now);
   EXPECT_EQ(refusal_of_run(root_ / "run"), "none");

@@ -122,7 +122,8 @@ LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& act
 
 std::string person_of(const LiveStudy& study, const Json& query) {
   const auto& collected = study.group().collect_query;
-  const auto value = collected.empty() || !query.is_object() ? std::string{} : text_at(query, collected.front().c_str());
+  const auto value =
+      collected.empty() || !query.is_object() ? std::string{} : text_at(query, collected.front().c_str());
   return value.find("{{") == std::string::npos ? value : std::string{};  // what the platform did not fill in
 }
 

@@ -16,8 +16,8 @@ enum class Purpose {
   kTest    ///< The expected paths from the start discriminate the constraint and nothing else.
 };
 
-/// Whether some paths of the robot are as good as others that count differently, and this does not count (docs/model.md):
-/// then with other weights of the policy's class it may take another path that is as good.
+/// Whether some paths of the robot are as good as others that count differently, and this does not count
+/// (docs/model.md): then with other weights of the policy's class it may take another path that is as good.
 [[nodiscard]] bool leaves_out_ties(const Atlas& atlas);
 
 /// Whether a demonstration conveys exactly the constraint to those who know the prior: with it, the one-step set of the

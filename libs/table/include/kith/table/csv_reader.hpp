@@ -45,10 +45,10 @@ enum class OtherColumns { kReject, kIgnore };
 /// Reads a CSV text (RFC 4180, UTF-8 with or without byte order mark, lines
 /// ending in LF or CRLF) that begins with a header. The columns may come in any
 /// order. `on_row` gets every row without a fault, in order; blank lines are
-/// skipped. Cells are separated by commas; if the header has none, by semicolons or tabs, or by what a first line such as
-/// "sep=;" says. Numbers may then have a decimal comma, as spreadsheets of many countries and R's write.csv2 write them.
-/// A first column without a name holds the names of rows, as R and pandas write them: it is left out, and an error
-/// (E0512) if two of its cells are alike.
+/// skipped. Cells are separated by commas; if the header has none, by semicolons or tabs, or by what a first line such
+/// as "sep=;" says. Numbers may then have a decimal comma, as spreadsheets of many countries and R's write.csv2 write
+/// them. A first column without a name holds the names of rows, as R and pandas write them: it is left out, and an
+/// error (E0512) if two of its cells are alike.
 ///
 /// @param file how diagnostics name the file.
 /// @param columns those that must be there.
@@ -61,7 +61,8 @@ enum class OtherColumns { kReject, kIgnore };
                                                const std::function<void(const CsvRow&)>& on_row,
                                                OtherColumns others = OtherColumns::kReject);
 
-/// The names of the columns, as text columns, of a CSV text whose columns are not known beforehand; without those of rows.
+/// The names of the columns, as text columns, of a CSV text whose columns are not known beforehand; without those of
+/// rows.
 /// @throws kith::Error (kInvalidInput) if the header is missing, damaged or names a column twice or not at all.
 [[nodiscard]] std::vector<Column> read_csv_header(std::string_view text, const std::string& file);
 
