@@ -74,7 +74,6 @@ struct AnswerTables : RoomExport {
 
   void write_questions() const {
     for (const auto& [seat, person] : history.seats) {
-      if (history.withdrawn.count(seat) != 0) continue;
       for (const auto& question : study.group().questions) {
         const auto answer = person.answers.find(question.id);
         if (answer == person.answers.end() || answer->is_null()) continue;
@@ -93,7 +92,7 @@ struct AnswerTables : RoomExport {
       for (std::size_t member = 1; member <= period.feedback.verdicts.size(); ++member) {
         const auto& verdicts = period.feedback.verdicts[member - 1];
         const auto seat = history.seat_in(period.lesson.period, member);
-        if (verdicts.empty() || seat == 0 || history.withdrawn.count(seat) != 0) continue;
+        if (verdicts.empty() || seat == 0) continue;
         const auto& lesson = period.lesson;
         for (const auto& shown : lesson.demonstrations)
           write_trial(seat, lesson, "demo", std::nullopt, shown.half_spaces);
@@ -110,7 +109,6 @@ struct AnswerTables : RoomExport {
       const auto& feedback = past.feedback;
       for (std::size_t m = 0; m < past.revised.size(); ++m) {
         const auto seat = history.seat_in(past.lesson.period, m + 1);
-        if (history.is_withdrawn(past.lesson.period, m + 1)) continue;
         for (std::size_t t = 0; t < feedback.verdicts[m].size(); ++t) {
           const bool changed = !past.revised[m].empty() && past.revised[m][t] != past.answers[m][t];
           write.add(tables.discussions, {.session = id(),
@@ -162,7 +160,6 @@ std::vector<ExportedAnswer> RoomExport::given_answers() const {
         rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
     }
   }
-  std::erase_if(rows, [&](const auto& row) { return history.withdrawn.count(row.seat) != 0; });
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
   return rows;
 }

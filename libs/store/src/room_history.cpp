@@ -213,9 +213,6 @@ RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::s
                "use the version of kith and the kind of machine that the session was run with");
   }
   file.for_each_event([&](const StoredEvent& event) { history.events.push_back(event); }, stored.number);
-  for (const auto& [room, seat] : withdrawn_seats(file)) {
-    if (room == stored.number) history.withdrawn.insert(seat);
-  }
   const auto last = history.events.empty() ? 0 : history.events.back().at_us;
   for (auto& [seat, row] : history.seats) {
     if (row.away_since_us != 0) row.away_us += last - row.away_since_us;

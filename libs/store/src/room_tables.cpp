@@ -14,16 +14,13 @@ struct RoomTables : RoomExport {
     const bool is_waiting_list = setup().is_waiting_list;
     if (!is_waiting_list) write_session();
     for (const auto& [seat, row] : history.seats) {
-      if (history.withdrawn.count(seat) != 0) continue;
       if (!is_waiting_list || history.stage_of(seat) != "moved") write_participant(seat, row);
     }
     for (const auto& lesson : history.lessons) {
       if (!lesson.is_replaced) write_period(lesson);
     }
     write_beliefs();
-    for (const auto& event : history.events) {
-      if (history.withdrawn.count(seat_of_actor(event.actor).value_or(0)) == 0) write_event(event);
-    }
+    for (const auto& event : history.events) write_event(event);
   }
 
   [[nodiscard]] std::optional<double> belief_in(std::size_t member) const {
@@ -38,9 +35,8 @@ struct RoomTables : RoomExport {
     for (const auto& period : past) {
       demonstrations += period.lesson.demonstrations.size();
       tests += period.lesson.tests.size();
-      for (std::size_t i = 0; i < period.feedback.verdicts.size(); ++i) {
-        if (history.is_withdrawn(period.lesson.period, i + 1)) continue;
-        for (const auto& verdict : period.feedback.verdicts[i]) {
+      for (const auto& verdicts : period.feedback.verdicts) {
+        for (const auto& verdict : verdicts) {
           ++answered;
           right += verdict.correct ? 1u : 0u;
         }
@@ -50,39 +46,33 @@ struct RoomTables : RoomExport {
     for (const auto status : session().components()) learned += status == ComponentStatus::kLearned ? 1u : 0u;
     double knowledge = 0.0;
     bool is_known = true;
-    std::size_t left = 0;  // whose data are there
     for (std::size_t member = 1; member <= session().num_members(); ++member) {
-      if (history.withdrawn.count(history.seat_of(member)) != 0) continue;
       const auto mass = belief_in(member);
       is_known = is_known && mass;
-      knowledge += mass.value_or(0.0);
-      ++left;
+      knowledge += mass.value_or(0.0) / static_cast<double>(session().num_members());
     }
-    is_known = is_known && left > 0;
     const auto simulated = std::count(setup().simulated.begin(), setup().simulated.end(), true);
     const auto& events = history.events;
     const auto size = setup().composition.size();
-    write.add(tables.sessions,
-              {.session = id(),
-               .strategy = setup().strategy,
-               .composition = setup().composition,
-               .replicate = setup().replicate,
-               .size = size,
-               .people = size - static_cast<std::size_t>(simulated),
-               .withdrawn = history.withdrawn.size(),
-               .created_ms = ms_of(history.stored.created_us),
-               .started_ms = ms_if_any(history.started_us),
-               .last_ms = ms_if_any(events.empty() ? 0 : events.back().at_us),
-               .stage = std::string{name_of(history.room->stage())},
-               .ended = if_any(history.ended),
-               .completed = session().status() == SessionStatus::kComplete,
-               .periods = past.size(),
-               .demonstrations = demonstrations,
-               .tests = tests,
-               .share_right = share(right, answered),
-               .components_learned = learned,
-               .knowledge = is_known ? std::optional{knowledge / static_cast<double>(left)} : std::nullopt,
-               .digest = history.replayed.digest});
+    write.add(tables.sessions, {.session = id(),
+                                .strategy = setup().strategy,
+                                .composition = setup().composition,
+                                .replicate = setup().replicate,
+                                .size = size,
+                                .people = size - static_cast<std::size_t>(simulated),
+                                .created_ms = ms_of(history.stored.created_us),
+                                .started_ms = ms_if_any(history.started_us),
+                                .last_ms = ms_if_any(events.empty() ? 0 : events.back().at_us),
+                                .stage = std::string{name_of(history.room->stage())},
+                                .ended = if_any(history.ended),
+                                .completed = session().status() == SessionStatus::kComplete,
+                                .periods = past.size(),
+                                .demonstrations = demonstrations,
+                                .tests = tests,
+                                .share_right = share(right, answered),
+                                .components_learned = learned,
+                                .knowledge = is_known ? std::optional{knowledge} : std::nullopt,
+                                .digest = history.replayed.digest});
   }
 
   void write_participant(std::size_t seat, const SeatRow& person) const {
@@ -160,7 +150,6 @@ struct RoomTables : RoomExport {
         BeliefRow row{
             .session = id(), .period = point["period"].get<std::size_t>(), .belief = name, .p_bec = mass.get<double>()};
         if (name.compare(0, kMember.size(), kMember) == 0) row.member = std::stoul(name.substr(kMember.size()));
-        if (row.member && history.is_withdrawn(row.period, *row.member)) continue;
         write.add(tables.beliefs, row);
       }
     }

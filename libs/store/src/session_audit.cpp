@@ -1,6 +1,5 @@
 #include "kith/store/session_audit.hpp"
 
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,12 +40,10 @@ TaughtRoom taught_in(EventFile& file, const StoredRoom& stored, const std::share
   return result;
 }
 
-// @param withdrawn  seats of this room that are left out.
-std::vector<ObservedPerson> observed(TaughtRoom room, const std::set<std::size_t>& withdrawn) {
+std::vector<ObservedPerson> observed(TaughtRoom room) {
   const auto& setup = room.setup;
   std::vector<ObservedPerson> group;
   for (auto& taught : room.people) {
-    if (withdrawn.count(taught.seat) != 0) continue;
     AuditedPerson person;
     person.room = setup.id;
     person.group = "room " + setup.id + " (" + setup.strategy + ", " + setup.composition + ")";
@@ -72,11 +69,7 @@ SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
   const auto rooms = options.room.empty() ? file.rooms() : std::vector{find_room(file, options.room)};
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     if (options.on_progress) options.on_progress(i, rooms.size());
-    std::set<std::size_t> withdrawn;
-    for (const auto& [room, seat] : withdrawn_seats(file)) {
-      if (room == rooms[i].number) withdrawn.insert(seat);
-    }
-    auto group = observed(taught_in(file, rooms[i], result.study, cache), withdrawn);
+    auto group = observed(taught_in(file, rooms[i], result.study, cache));
     for (auto& person : audit_people(cache, teaching, options.forgetting, std::move(group))) {
       report.people.push_back(std::move(person));
     }
