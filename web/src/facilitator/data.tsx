@@ -151,7 +151,7 @@ const storedOf = ({ names, text, questions, query, screening, discussion }: Stud
   ...(names ? [['Names', 'what people enter'] satisfies [string, string]] : []),
   ['Controls', 'everything that a facilitator does on this page, with the reason'],
   ['Not stored', ['network addresses', 'browser names', ...(names ? [] : ['names']), ...(query.length > 0 ? [] : ['parameters of the join link']), 'links (only a hash of each)'].join(', ')],
-  ['Erasing', 'kith session redact erases names and people\u2019s own words, or one person'],
+  ['Erasing', 'kith session redact erases names and people\u2019s own words'],
 ];
 
 function Stored({ stores }: { stores: StudyInfo['stores'] }): JSX.Element {
