@@ -8,7 +8,6 @@
 namespace kith {
 namespace {
 
-constexpr std::uint16_t kGoingAway = 1001;
 constexpr std::uint16_t kPolicy = 1008;
 constexpr std::uint16_t kElsewhere = 4001;  // of the range for applications
 constexpr int kDeepest = 32;

@@ -28,6 +28,8 @@
 
 namespace kith {
 
+constexpr std::uint16_t kGoingAway = 1001;  // of RFC 6455
+
 // A connection. What is behind the first blank line is set once, by its hello; what is behind the second is touched on
 // one strand only: that of the room for participants, that of the service for others.
 struct Connection {

@@ -11,7 +11,6 @@ namespace kith {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1000;
-constexpr std::uint16_t kGoingAway = 1001;
 
 // A room's row, and for each of its seats what is not known to the room.
 struct Row {

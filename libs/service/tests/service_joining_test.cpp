@@ -104,7 +104,7 @@ std::size_t num_people(Stage& stage) {
 }
 
 // The page of whoever has that link, up to date.
-std::unique_ptr<Page> page_of(Stage& stage, const std::string& token) {
+std::unique_ptr<Page> open_page_of(Stage& stage, const std::string& token) {
   auto page = std::make_unique<Page>(token, "tab of " + token);
   page->connect(stage.service());
   stage.service().settle();
@@ -119,10 +119,10 @@ TEST(LiveService, LeadsWhoFollowsTheLinkAgainBackToTheirSeat) {
   const auto code = stage.join_code();
   const Json query{{"PROLIFIC_PID", "pid-a"}};
   const auto first = stage.join(code, query);
-  const auto person = page_of(stage, first);
+  const auto person = open_page_of(stage, first);
   const auto second = stage.join(code, query);
   EXPECT_NE(second, first);
-  const auto again = page_of(stage, second);
+  const auto again = open_page_of(stage, second);
   again->ask(stage.service(), "consent", {{"accept", true}, {"version", "1"}});
   stage.service().settle();
   again->read();
@@ -131,7 +131,7 @@ TEST(LiveService, LeadsWhoFollowsTheLinkAgainBackToTheirSeat) {
 
   // Also where the server was stopped meanwhile.
   stage.restart();
-  const auto returned = page_of(stage, stage.join(code, query));
+  const auto returned = open_page_of(stage, stage.join(code, query));
   EXPECT_EQ(returned->stage(), "check");
   stage.stop();
   EXPECT_EQ(num_people(stage), 2u);
@@ -142,10 +142,10 @@ TEST(LiveService, GivesWhoDeclinedAndComesAgainANewSeat) {
   Stage stage{scratch / "live", small_study(kQuestions)};
   const auto code = stage.join_code();
   const Json query{{"PROLIFIC_PID", "pid-a"}};
-  const auto person = page_of(stage, stage.join(code, query));
+  const auto person = open_page_of(stage, stage.join(code, query));
   person->ask(stage.service(), "consent", {{"accept", false}, {"version", "1"}});
   stage.service().settle();
-  const auto again = page_of(stage, stage.join(code, query));
+  const auto again = open_page_of(stage, stage.join(code, query));
   EXPECT_EQ(again->stage(), "consent");
 }
 
