@@ -167,7 +167,6 @@ void Auditor::count(std::span<const ObservedPeriod> periods, std::vector<Compone
     auto& audit = audits[period.component];
     ++audit.periods;
     for (const auto& verdict : period.verdicts) {
-      if (!verdict.answered) continue;
       ++audit.tests;
       audit.correct += verdict.correct ? 1u : 0u;
     }

@@ -36,7 +36,7 @@ std::span<const std::uint32_t> PointCells::of(const Atlas& atlas, const Particle
 }
 
 AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
-                     std::span<const Verdict> verdicts)
+                     std::span<const Verdict> verdicts, Missing missing)
     : atlas_{&atlas}, tables_{atlas.find_tables()} {
   constexpr double kChance = 0.25;  // where behaviours are not tabulated
   if (tables_) {
@@ -44,13 +44,14 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
     num_right_of_cell_.assign(tables_->cells().size(), 0);
   }
   for (auto& guess : guesses_) guess.right = {1.0};
-  for (std::size_t t = 0; t < tests.size() && t < answers.size(); ++t) {
-    if (!answers[t]) continue;
+  for (std::size_t t = 0; t < tests.size() && t < verdicts.size(); ++t) {
+    const auto answer = t < answers.size() ? answers[t] : std::nullopt;
+    if (!answer && missing == Missing::kSaysNothing) continue;
     OneTest test{.chance = kChance, .right_by_chance = kChance};
     auto answered_by = verdicts[t].half_spaces;
-    const bool is_impossible = is_beyond_prior(atlas, answered_by);
+    const bool is_impossible = !answer || is_beyond_prior(atlas, answered_by);
     if (tables_) {
-      read_cells(tests[t], *answers[t], test);
+      read_cells(tests[t], answer, test);
     } else {
       const auto examined =
           atlas.constraints().half_spaces(atlas.tested_constraints(tests[t].demo).without(atlas.prior()));
@@ -71,16 +72,17 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
       guesses_[g].right = convolved(guesses_[g].right, std::vector{1.0 - right, right});
     }
     tests_.push_back(std::move(test));
-    given_.push_back({tests[t].demo, *answers[t]});
+    if (answer) given_.push_back({tests[t].demo, *answer});
   }
 }
 
 // What people of each policy cell answer to a test.
-void AnswerFit::read_cells(const Test& asked, const IntegerVector& answer, OneTest& test) {
+void AnswerFit::read_cells(const Test& asked, const Answer& answer, OneTest& test) {
   const auto& domain = atlas_->domain();
   const auto hull = tables_->hull(asked.demo);
   const auto& losses = tables_->hull(hull).losses;
-  const auto given = std::find(losses.begin(), losses.end(), atlas_->feature_counts(asked.demo) - answer);
+  const auto given =
+      answer ? std::find(losses.begin(), losses.end(), atlas_->feature_counts(asked.demo) - *answer) : losses.end();
   test.by_cell = given != losses.end();
   test.by_nobody = !test.by_cell;
   std::vector<bool> is_right;

@@ -115,7 +115,7 @@ void MisconceptionBank::let_some_stop() {
 void MisconceptionBank::observe(const Atlas& atlas, const ObservedPeriod& period) {
   beliefs_->take(num_periods_, period);
   if (num_periods_ > 0) let_some_stop();
-  const AnswerFit fit{atlas, period.tests, period.answers, period.verdicts};
+  const AnswerFit fit{atlas, period.tests, period.answers, period.verdicts, AnswerFit::Missing::kIsWrong};
   num_tests_ += fit.num_tests();
   num_right_ += fit.num_right();
   if (fit.num_tests() > 0) weigh(atlas, fit);

@@ -103,13 +103,17 @@ TEST_F(MisconceptionBankTest, BelievesThatFeedbackMayMendAMisconception) {
             ordinary.probability_of_misconception(position(ordinary)) + 0.1);
 }
 
-TEST_F(MisconceptionBankTest, LearnsNothingFromTestsWithoutAnswers) {
+// It is as likely with any of them, and makes all of them less probable than guessing.
+TEST_F(MisconceptionBankTest, LearnsOfNoMisconceptionFromTestsWithoutAnswers) {
   auto silent = lesson(1, cheap_rubble_);
   silent.answers.front().reset();
   silent.verdicts.front().answered = false;
   auto one = bank(0.0);
   one.observe(item_delivery(), silent);
-  EXPECT_NEAR(one.probability_of_misconception(position(one)), 0.036, 1e-12);
+  for (std::size_t j = 0; j < 5; ++j) {
+    EXPECT_NEAR(one.probability_of_misconception(j), one.probability_of_misconception(position(one)), 1e-12);
+  }
+  EXPECT_LT(one.probability_of_misconception(position(one)), 0.036);
 }
 
 TEST_F(MisconceptionBankTest, ForgetsWithTime) {
@@ -178,6 +182,22 @@ TEST_F(MisconceptionBankTest, RefusesWhatIsOutOfRange) {
   options.misconceived = 0.1;
   options.mended = 1.5;
   EXPECT_THROW(MisconceptionBank(item_delivery(), options, beliefs), std::invalid_argument);
+}
+
+// As of somebody who stops short, or is late.
+TEST_F(MisconceptionBankTest, TakesATestWithoutAnAnswerForAWrongOne) {
+  auto answering = bank(), silent = bank();
+  for (std::size_t number = 1; number <= 4; ++number) {
+    auto period = lesson(number, weights(-1.0, 1.1, -0.32));
+    answering.observe(item_delivery(), period);
+    period.answers.clear();
+    period.verdicts.front() = {.correct = false, .answered = false, .half_spaces = {}};
+    silent.observe(item_delivery(), period);
+  }
+  EXPECT_EQ(silent.agreement().tests, 4u);
+  EXPECT_EQ(silent.agreement().right, 0u);
+  EXPECT_LT(silent.odds_of_learning(), answering.odds_of_learning());
+  EXPECT_LT(silent.probability_of_learning(), answering.probability_of_learning());
 }
 
 }  // namespace

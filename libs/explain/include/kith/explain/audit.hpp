@@ -57,7 +57,7 @@ struct ComponentAudit {
   /// How often the person would satisfy all constraints of the component: `probability` is that of understanding.
   CredibleLevel level;
   std::size_t periods = 0;  ///< With lessons about it.
-  std::size_t tests = 0;    ///< Answered in these.
+  std::size_t tests = 0;    ///< Asked in these; one that stopped short or was not answered in time is wrong.
   std::size_t correct = 0;  ///< Of them.
   /// The likeliest of the component's; nothing if it is not taught yet, or too unlikely to speak of.
   std::optional<LikelyMisconception> misconception{};

@@ -34,15 +34,19 @@ class PointCells {
 /// often do (0.5). Such a path is always a slip of those who believe something; where weights in the prior could prefer
 /// it to the robot's, 0.1 e q_t for weights that do not. Where behaviours are not tabulated, a right answer is given by
 /// the weights that satisfy the constraints which the test examines, a wrong one by those that prefer it to the robot's
-/// path, and q_t = 1/4, for all who guess. Tests without an answer say nothing.
+/// path, and q_t = 1/4, for all who guess. A test without an answer, as of somebody who stopped short or ran out of
+/// time, says nothing (Missing::kSaysNothing) or is wrong, as a path that is best for nobody (Missing::kIsWrong).
 class AnswerFit {
  public:
+  /// What a test without an answer tells.
+  enum class Missing { kSaysNothing, kIsWrong };
+
   /// e: the probability that an answer is not what the person believes.
   [[nodiscard]] static constexpr double slip() noexcept { return 0.02; }
 
   /// One answer and one verdict per test. The arguments are not kept.
   AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
-            std::span<const Verdict> verdicts);
+            std::span<const Verdict> verdicts, Missing missing = Missing::kSaysNothing);
 
   /// An answer that was given.
   struct Given {
@@ -52,7 +56,7 @@ class AnswerFit {
   [[nodiscard]] std::span<const Given> given() const noexcept { return given_; }
   [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
 
-  /// Tests that were answered.
+  /// Tests that were answered, or count as answered wrong.
   [[nodiscard]] std::size_t num_tests() const noexcept { return tests_.size(); }
   /// Of them, answered right.
   [[nodiscard]] std::size_t num_right() const noexcept { return num_right_; }
@@ -86,7 +90,7 @@ class AnswerFit {
   // Whether each point is in each of half_spaces_, shape [half_spaces_][points].
   using Inside = std::vector<std::vector<char>>;
   [[nodiscard]] std::vector<std::size_t> numbers_of(std::span<const HalfSpace> half_spaces);
-  void read_cells(const Test& asked, const IntegerVector& answer, OneTest& test);
+  void read_cells(const Test& asked, const Answer& answer, OneTest& test);
   [[nodiscard]] Inside locate(const ParticleBelief& belief) const;
   [[nodiscard]] static double factor(const OneTest& test, const Inside& inside, std::size_t point);
   [[nodiscard]] std::vector<double> with_slips(const std::vector<double>& right) const;
@@ -94,7 +98,7 @@ class AnswerFit {
   const Atlas* atlas_;
   const BehaviourTables* tables_;  // the atlas's; nothing where it has none
   std::vector<OneTest> tests_;
-  std::vector<Given> given_;            // in the same order
+  std::vector<Given> given_;            // in the same order, without those that are missing
   std::vector<HalfSpace> half_spaces_;  // that tests name, each once
   std::size_t num_right_ = 0;
   std::array<Rating, 2> guesses_;

@@ -20,7 +20,7 @@ namespace kith {
 /// How the answers of a person agree with what was expected of the person before each of them was seen, under the
 /// hypotheses as all answers weigh them: a posterior predictive check [gelman2013].
 struct Agreement {
-  std::size_t tests = 0;  ///< That were answered.
+  std::size_t tests = 0;  ///< That were asked; one without an answer counts as wrong.
   std::size_t right = 0;
   double expected = 0.0;  ///< Right answers.
   double variance = 0.0;  ///< Of the number of right answers.
