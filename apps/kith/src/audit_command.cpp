@@ -179,6 +179,8 @@ class AuditText {
       group = person.group;
       out_ += "\n" + title_of(person) + "\n";
       if (const auto caution = caution_in_words(person.audit); !caution.empty()) line(caution, 2);
+      if (const auto knows = person.audit.knowledge())
+        line(fmt::format("knows {} of what was taught", percent(*knows)), 2);
       if (!person.kinds.empty()) line("kind of learner: " + kinds_in_words(person.kinds), 2);
       for (const auto& audit : person.audit.components) component(audit);
     }
@@ -213,7 +215,7 @@ class AuditText {
 
   void component(const ComponentAudit& audit) {
     line(fmt::format("{}. {}: {}", audit.component + 1, component_in_words(atlas_, audit.component),
-                     in_words(audit.understanding)),
+                     verdict_in_words(audit)),
          2);
     if (audit.understanding == Understanding::kNotTaught) return;
     line(fmt::format("understands with probability {}; expected to get all of it right {} of the time ({} interval: {} "

@@ -87,6 +87,17 @@ Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
   }
 }
 
+std::optional<double> PersonAudit::knowledge() const {
+  double sum = 0.0;
+  std::size_t taught = 0;
+  for (const auto& audit : components) {
+    if (audit.periods == 0) continue;
+    sum += audit.level.mean;
+    ++taught;
+  }
+  return taught == 0 ? std::nullopt : std::optional{sum / static_cast<double>(taught)};
+}
+
 PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, const RandomStream& random) {
   return audit(periods, MisconceptionBank::beliefs(*cache_, options_.bank, random.split("bank")), random);
 }
@@ -140,11 +151,18 @@ void Auditor::judge(const MisconceptionBank& bank, std::span<const ObservedPerio
     if (audit.periods == 0) continue;
     audit.understanding = Understanding::kCannotTell;
     audit.misconception = misconception(bank, k, periods);
-    const bool is_sure = audit.level.probability >= options_.sure && shows_learning;
-    if (is_sure && bank.odds_against_stopping(constraints_[k], options_.level) >= options_.against_stopping) {
+    audit.doubt = Doubt::kAnswers;
+    if (audit.level.probability >= options_.sure) {
+      const auto goes_on = [&] {
+        return bank.odds_against_stopping(constraints_[k], options_.level) >= options_.against_stopping;
+      };
+      audit.doubt = !shows_learning ? Doubt::kLearning : goes_on() ? Doubt::kNone : Doubt::kStopping;
+    }
+    if (audit.doubt == Doubt::kNone) {
       audit.understanding = Understanding::kUnderstands;
     } else if (audit.misconception && audit.misconception->probability >= options_.likely) {
       audit.understanding = Understanding::kMisconception;
+      audit.doubt = Doubt::kNone;
       choose_demonstration(bank, k, periods, *audit.misconception);
     }
   }
@@ -157,6 +175,7 @@ void Auditor::judge_by_answers(PersonAudit& person) const {
     if (audit.periods == 0) continue;
     const bool understands = audit.level.probability >= options_.sure;
     audit.understanding = understands ? Understanding::kUnderstands : Understanding::kCannotTell;
+    audit.doubt = understands ? Doubt::kNone : Doubt::kAnswers;
     audit.test_after = understands ? 1 : 0;
   }
 }

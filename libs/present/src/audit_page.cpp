@@ -245,6 +245,9 @@ class Page {
     out_ += tag("h3", title_of(person), fmt::format("id=\"{}\"", anchor(person)));
     const auto caution = caution_in_words(person.audit);
     if (!caution.empty()) out_ += tag("p", caution, "class=\"caution\"");
+    if (const auto knows = person.audit.knowledge()) {
+      out_ += tag("p", fmt::format("Knows {} of what was taught.", percent(*knows)));
+    }
     if (!person.kinds.empty()) out_ += tag("p", "Kind of learner: " + kinds_in_words(person.kinds) + ".");
     for (const auto& audit : person.audit.components) component(audit);
   }
@@ -253,7 +256,7 @@ class Page {
     out_ += "<article>\n";
     out_ += fmt::format("<h4>{}. {}: <span class=\"verdict {}\">{}</span></h4>\n", audit.component + 1,
                         svg_escaped(component_in_words(atlas_, audit.component)), name_of(audit.understanding),
-                        in_words(audit.understanding));
+                        verdict_in_words(audit));
     if (audit.understanding != Understanding::kNotTaught) {
       level(audit);
       if (audit.misconception) misconception(audit);

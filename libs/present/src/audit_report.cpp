@@ -37,14 +37,19 @@ AuditCounts counts_of(const AuditReport& report, std::size_t component) {
 
 Agreement agreement_of(const AuditReport& report, const std::string& group) {
   Agreement sum;
+  std::size_t people = 0;
   for (const auto& person : report.people) {
     if (!group.empty() && person.group != group) continue;
     const auto& one = person.audit.agreement;
+    people += one.tests > 0 ? 1u : 0u;
+    if (one.tests > 0) sum.p = one.p;
     sum.tests += one.tests;
     sum.right += one.right;
     sum.expected += one.expected;
     sum.variance += one.variance;
   }
+  if (people < 2) return sum;  // one person's is exact
+  sum.p = 1.0;
   if (!(sum.variance > 0.0)) return sum;
   constexpr double kHalf = 0.5;  // numbers are whole
   const double off = std::max(0.0, std::abs(static_cast<double>(sum.right) - sum.expected) - kHalf);
@@ -80,7 +85,7 @@ std::string agreement_in_words(const AuditReport& report, const std::string& gro
               : fewer ? std::string{"There are fewer right answers than the model expects: "}
                       : std::string{"There are more right answers than the model expects: "};
   text += counts_in_words(agreement) + ".";
-  if (const auto n = num_unexplained(report, group); n > 0) {
+  if (const auto n = num_unexplained(report, group); n > 0 && report.people.size() > 1) {
     text += fmt::format(" The model does not explain the answers of {}.",
                         n == 1 ? "1 person" : fmt::format("{} people", n));
   }
@@ -99,6 +104,24 @@ std::string caution_in_words(const PersonAudit& audit) {
   if (1.0 - audit.learning >= kLikely) {
     return fmt::format("Lessons do not seem to reach this person any more (probability {:.0f} %).",
                        100.0 * (1.0 - audit.learning));
+  }
+  return "";
+}
+
+std::string need_in_words(const PersonAudit& audit) {
+  constexpr double kLikely = 0.5;
+  constexpr std::size_t kSeveral = 2;  // lessons; after the first one, misconceptions are common
+  if (audit.agreement.tests == 0) return "";
+  if (!audit.is_explained) {
+    const bool fewer = static_cast<double>(audit.agreement.right) < audit.agreement.expected;
+    return fewer ? "far fewer right answers than expected" : "";
+  }
+  if (audit.guessing >= kLikely) return "the answers look like guesses";
+  if (1.0 - audit.learning >= kLikely) return "lessons do not seem to reach this person";
+  for (const auto& one : audit.components) {
+    if (one.understanding == Understanding::kMisconception && one.periods >= kSeveral) {
+      return fmt::format("after {} lessons still thinks that {}", one.periods, one.misconception->thinks);
+    }
   }
   return "";
 }
@@ -142,6 +165,21 @@ std::string in_words(Understanding understanding) {
       break;
   }
   return "cannot tell yet";
+}
+
+std::string verdict_in_words(const ComponentAudit& audit) {
+  const auto word = in_words(audit.understanding);
+  switch (audit.doubt) {
+    case Doubt::kNone:
+      return word;
+    case Doubt::kAnswers:
+      return word + ": the answers do not decide it";
+    case Doubt::kLearning:
+      return word + ": somebody who guesses or learns nothing might answer like this";
+    case Doubt::kStopping:
+      break;
+  }
+  return word + ": somebody who has stopped learning might answer like this";
 }
 
 std::string advice_in_words(const ComponentAudit& audit) {
@@ -204,6 +242,7 @@ Json component_json(const Atlas& atlas, const ComponentAudit& audit) {
   return {
       {"component", audit.component + 1},
       {"understanding", name_of(audit.understanding)},
+      {"verdict", verdict_in_words(audit)},
       {"probability", audit.level.probability},
       {"level", {{"mean", audit.level.mean}, {"low", audit.level.low}, {"high", audit.level.high}}},
       {"periods", audit.periods},
@@ -256,6 +295,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"type", std::string(1, person.type)},
                       {"simulated", person.simulated},
                       {"agreement", agreement_json(person.audit.agreement)},
+                      {"knows", person.audit.knowledge() ? Json(*person.audit.knowledge()) : Json{}},
                       {"explained", person.audit.is_explained},
                       {"learning", person.audit.learning},
                       {"guessing", person.audit.guessing},

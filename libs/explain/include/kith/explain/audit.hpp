@@ -28,6 +28,14 @@ enum class Understanding {
 /// "not-taught", "understands", "cannot-tell" or "misconception".
 [[nodiscard]] const char* name_of(Understanding understanding) noexcept;
 
+/// Why nothing more can be said than Understanding::kCannotTell.
+enum class Doubt {
+  kNone,      ///< More can be said.
+  kAnswers,   ///< Too few answers, or too many wrong ones: it is not probable enough that the person understands.
+  kLearning,  ///< People who guess, or whom no lesson ever reaches, give such answers too often.
+  kStopping,  ///< As do people who stopped learning before.
+};
+
 /// An answer that shows a misconception.
 struct TellingAnswer {
   std::size_t period = 0;
@@ -54,6 +62,7 @@ struct LikelyMisconception {
 struct ComponentAudit {
   std::size_t component = 0;  ///< Index into Atlas::knowledge_components().
   Understanding understanding = Understanding::kNotTaught;
+  Doubt doubt = Doubt::kNone;
   /// How often the person would satisfy all constraints of the component: `probability` is that of understanding.
   CredibleLevel level;
   std::size_t periods = 0;  ///< With lessons about it.
@@ -78,6 +87,10 @@ struct PersonAudit {
   bool is_explained = true;
   double learning = 1.0;  ///< Probability that lessons (still) reach the person.
   double guessing = 0.0;  ///< Probability that the answers are guesses, or any paths.
+
+  /// The one figure for what the person knows: how often they are expected to get all of a component right, as a mean
+  /// over the components that they were taught; nothing before the first lesson.
+  [[nodiscard]] std::optional<double> knowledge() const;
 };
 
 /// Periods; nobody plans further ahead.

@@ -50,6 +50,9 @@ struct AuditCounts {
 /// What to know of a person before reading the verdicts: that the answers are not explained, look like guesses, or that
 /// lessons do not seem to reach the person. Empty if there is nothing.
 [[nodiscard]] std::string caution_in_words(const PersonAudit& audit);
+/// Why somebody needs help: lessons do not reach them, or several lessons about a component have not mended what they
+/// think. Empty if nothing says so.
+[[nodiscard]] std::string need_in_words(const PersonAudit& audit);
 
 /// A misconception that several people have about a component.
 struct SharedMisconception {
@@ -63,6 +66,8 @@ struct SharedMisconception {
 
 /// "understands", "has a misconception", "cannot tell yet" or "not taught yet".
 [[nodiscard]] std::string in_words(Understanding understanding);
+/// The same, with the reason where nothing can be told: "cannot tell yet: ...".
+[[nodiscard]] std::string verdict_in_words(const ComponentAudit& audit);
 /// What to do about it: "test again after 8 periods without lessons", "show the demonstration and test again in the
 /// next lesson". Empty if nothing is to do.
 [[nodiscard]] std::string advice_in_words(const ComponentAudit& audit);
