@@ -50,7 +50,8 @@ std::string time_text(std::int64_t us) {
 
 std::string state_of(const RoomSummary& room) {
   if (!room.ended.empty()) return "ended: " + room.ended;
-  return room.has_started ? "started" : "lobby";
+  if (room.is_taught) return "taught";
+  return room.has_started ? "running" : "lobby";
 }
 
 int list(const SessionOptions& options, Console& console) {
@@ -60,11 +61,11 @@ int list(const SessionOptions& options, Console& console) {
     console.print("no rooms\n");
     return 0;
   }
-  TextTable table{"lllrrrll"};
-  table.add({"room", "strategy", "group", "joined", "lessons", "answers", "last event (UTC)", "state"});
+  TextTable table{"lllrrrrll"};
+  table.add({"room", "strategy", "group", "joined", "gone", "lessons", "answers", "last event (UTC)", "state"});
   for (const auto& room : rooms) {
-    table.add({room.id, room.strategy, room.composition, std::to_string(room.joined), std::to_string(room.lessons),
-               std::to_string(room.answers), time_text(room.last_us), state_of(room)});
+    table.add({room.id, room.strategy, room.composition, std::to_string(room.joined), std::to_string(room.gone),
+               std::to_string(room.lessons), std::to_string(room.answers), time_text(room.last_us), state_of(room)});
   }
   console.print(table.text(console));
   return 0;

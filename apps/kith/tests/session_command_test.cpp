@@ -28,8 +28,8 @@ TEST_F(SessionCommand, ListsAndShowsRooms) {
   const auto list = run_kith({"session", "list", folder()});
   EXPECT_EQ(list.code, 0) << list.err;
   // Of r1 one person has joined, of r2 nobody; nothing was taught.
-  EXPECT_THAT(list.out, ContainsRegex("\nr1 +common +NP +1 +0 +0 +2023"));
-  EXPECT_THAT(list.out, ContainsRegex("\nr2 +common +NP +0 +0 +0 +- "));
+  EXPECT_THAT(list.out, ContainsRegex("\nr1 +common +NP +1 +0 +0 +0 +2023"));
+  EXPECT_THAT(list.out, ContainsRegex("\nr2 +common +NP +0 +0 +0 +0 +- "));
   const auto shown = run_kith({"session", "show", folder(), "--room", "AAAAAA"}).out;
   EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 2) << shown;
   const auto several = run_kith({"session", "show", folder()});

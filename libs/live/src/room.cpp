@@ -164,6 +164,10 @@ std::string Room::stage_of(std::size_t seat) const {
   return stage_of_seat({*study_, *setup_, *state_}, state_->seats.at(seat - 1));
 }
 
+std::string Room::status_of(std::size_t seat) const {
+  return status_of_seat({*study_, *setup_, *state_}, state_->seats.at(seat - 1));
+}
+
 bool Room::is_done(std::size_t seat) const {
   const auto stage = stage_of(seat);
   for (const char* last : {"debrief", "declined", "ended", "replaced", "full", "moved"}) {

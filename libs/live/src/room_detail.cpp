@@ -36,7 +36,6 @@ class RoomDetailPage {
     if (const auto* lesson = current_lesson()) detail["lesson"] = lesson_json(*lesson);
     detail["answers"] = answers();
     detail["curves"] = curves();
-    detail["members"] = members();
     detail["beliefs"] = beliefs();
     detail["truth"] = truth();
     detail["timers"] = timers();
@@ -144,40 +143,6 @@ class RoomDetailPage {
       for (const auto& [name, mass] : point.p_bec) p_bec[name] = mass;
       for (const auto& [seat, share] : point.right) right[std::to_string(seat + 1)] = share;
       list.push_back({{"period", point.period}, {"p_bec", p_bec}, {"right", right}});
-    }
-    return list;
-  }
-
-  // What the teacher believes of each member while the group is taught: how probable it is that they predict the
-  // current component rightly, and the constraint of those taught so far that they most probably violate.
-  [[nodiscard]] Json members() const {
-    Json list = Json::array();
-    const auto* lesson = current_lesson();
-    if (lesson == nullptr || !state_.session || !is_running(state_)) return list;
-    constexpr double kNegligible = 0.1;  // as in audits
-    const auto constraints_of = [&](std::size_t component) {
-      return atlas_.constraints().half_spaces(atlas_.knowledge_components()[component].constraints);
-    };
-    const auto& session = *state_.session;
-    for (std::size_t m = 0; m < session.num_members(); ++m) {
-      const auto& belief = session.belief().member(m);
-      Json member{{"member", m + 1}, {"knows", belief.mass_in(constraints_of(lesson->component))}};
-      double most = kNegligible;
-      for (std::size_t component = 0; component <= lesson->component; ++component) {
-        for (const auto& constraint : constraints_of(component)) {
-          const double violates = 1.0 - belief.mass_in(std::span{&constraint, 1});
-          if (violates <= most) continue;
-          most = violates;
-          member["thinks"] = in_words(domain_, Misbelief{.violated = constraint});
-          member["probability"] = violates;
-        }
-      }
-      if (session.options().hypotheses_about == HypothesesAbout::kKinds) {
-        const auto kinds = session.bank()->member(m).kinds();
-        member["kind"] = kind_word(kinds);
-        for (const auto& [kind, probability] : kinds) member["kinds"][kind] = probability;
-      }
-      list.push_back(std::move(member));
     }
     return list;
   }

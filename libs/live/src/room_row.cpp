@@ -57,6 +57,7 @@ class RoomRowPage {
     row["kind"] = seat.is_person ? "person" : "simulated";
     row["type"] = std::string{seat.type};
     row["presence"] = presence;
+    row["status"] = status_of_seat(room_, seat);
     row["dropped"] = seat.status == SeatStatus::kDropped;
     row["since_ms"] = in_ms(seat.presence_us);
     if (seat.member && *seat.member != i) row["member"] = *seat.member + 1;

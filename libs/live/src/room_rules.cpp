@@ -36,6 +36,18 @@ std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
   return std::string{rules_of(room.state.phase).word};
 }
 
+std::string status_of_seat(const RoomParts& room, const LiveSeat& seat) {
+  if (!seat.is_person) return "simulated";
+  if (seat.status == SeatStatus::kEmpty) return "empty";
+  if (seat.status == SeatStatus::kGone) {
+    if (seat.last_page != "ended") return seat.last_page;  // declined, full, moved or replaced
+    if (seat.why == "left" || seat.why == "withdrawn") return seat.why;
+    return seat.had_dropped ? "dropped" : "ended";
+  }
+  if (seat.status == SeatStatus::kDropped && !seat.has_answered_questions) return "dropped";
+  return stage_of_seat(room, seat) == "debrief" ? "finished" : "active";
+}
+
 std::size_t current_test(const LiveSeat& seat) noexcept {
   const auto first = std::find_if(seat.paths.begin(), seat.paths.end(), [](const auto& path) { return !path; });
   return static_cast<std::size_t>(first - seat.paths.begin());

@@ -53,8 +53,9 @@ struct LiveSeat {
   std::optional<std::size_t> member;  ///< Whose place they have or had; none: a reserve.
   SeatStatus status = SeatStatus::kEmpty;
   Readiness readiness = Readiness::kConsent;
-  std::string last_page;  ///< Of who is gone: declined, ended, replaced or full.
-  std::string why;        ///< Of who is gone: a stable word.
+  std::string last_page;     ///< Of who is gone: declined, ended, replaced or full.
+  std::string why;           ///< Of who is gone: a stable word.
+  bool had_dropped = false;  ///< Of who is gone: the group went on without them before.
   bool gets_code = false;
   bool is_here = false;
   std::int64_t presence_us = 0;  ///< Since when they are here or away.
@@ -182,6 +183,8 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] bool is_running(const Room::State& state) noexcept;
 /// The word of a person's page, see Room::stage_of().
 [[nodiscard]] std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat);
+/// The word of Room::status_of().
+[[nodiscard]] std::string status_of_seat(const RoomParts& room, const LiveSeat& seat);
 /// The test that a person works on: the first without a path. @pre not all are given.
 [[nodiscard]] std::size_t current_test(const LiveSeat& seat) noexcept;
 /// In a discussion, the test that a person is asked about: the first without a choice. @pre not all have one.

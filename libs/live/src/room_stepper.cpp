@@ -19,6 +19,7 @@ std::shared_ptr<const Learner> make_stand_in(const LiveStudy& study, const RoomS
 
 void RoomStepper::dismiss(std::size_t seat, const std::string& page, const std::string& why, bool gets_code) {
   auto& who = state_.seats[seat];
+  who.had_dropped = who.status == SeatStatus::kDropped;
   who.status = SeatStatus::kGone;
   who.last_page = page;
   who.why = why;

@@ -247,14 +247,17 @@ Json labels_of(const SessionTables& tables, const ReportDesign& design) {
                      {"high", "95 % high"}};
 
   const std::string estimate =
-      "The teacher's estimate: the share of its belief about a member that lies in the policy's region (BEC). ";
+      "By their answers, as kith audit judges them: how often a member is expected to predict all of a component "
+      "rightly, as a mean over the components taught. ";
+  const std::string belief =
+      "The share of the teacher's belief about a member that lies in the policy's region (BEC). ";
   const Json figures{
       {"knowledge",
        {{"title", "Estimated knowledge at the end by strategy and composition"},
         {"reading", estimate + "Large marks are means with 95 % intervals, small dots are individual groups."}}},
       {"knowledge-periods",
-       {{"title", "Estimated knowledge over periods by type of place"},
-        {"reading", estimate + "Means with 95 % bands. Lines end where too few people are still being taught."}}},
+       {{"title", "The teacher's belief over periods by type of place"},
+        {"reading", belief + "Means with 95 % bands. Lines end where too few people are still being taught."}}},
       {"correct-periods",
        {{"title", "Right answers over periods by type of place"},
         {"reading",
@@ -389,8 +392,8 @@ Json methods_of(const SessionTables& tables, const ReportDesign& design) {
   }
   text +=
       " An answer counts as right if its return under the robot's reward equals that of the robot's path. Knowledge is "
-      "estimated by the teacher: the share of its belief about a member in the set of rewards under which the robot's "
-      "policy is optimal, averaged over members.";
+      "estimated from all answers of a member: how often the member is expected to predict all of a component rightly, "
+      "averaged over the components that were taught and over members.";
   return {{"paragraph", text}, {"references", Json::array()}};
 }
 

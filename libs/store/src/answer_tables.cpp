@@ -14,7 +14,9 @@ struct AnswerTables : RoomExport {
       if (lesson_row == nullptr || test.test >= lesson_row->lesson.tests.size()) continue;
       const auto& lesson = lesson_row->lesson;
       const auto place = study.atlas->id(lesson.tests[test.test].demo);
-      const auto* judged = lesson_row->is_replaced ? nullptr : history.verdict(test.period, test.member, test.test);
+      const auto* person = history.person_in(test.period, test.member);
+      const bool counts = !lesson_row->is_replaced && person != nullptr && person->seat == test.seat;
+      const auto* judged = counts ? history.verdict(test.period, test.member, test.test) : nullptr;
       TestRow row{.session = id(),
                   .period = test.period,
                   .component = lesson.component + 1,
@@ -91,8 +93,9 @@ struct AnswerTables : RoomExport {
     for (const auto& period : session().history()) {
       for (std::size_t member = 1; member <= period.feedback.verdicts.size(); ++member) {
         const auto& verdicts = period.feedback.verdicts[member - 1];
-        const auto seat = history.seat_in(period.lesson.period, member);
-        if (verdicts.empty() || seat == 0) continue;
+        const auto* person = history.person_in(period.lesson.period, member);
+        if (person == nullptr || !person->is_person) continue;
+        const auto seat = person->seat;
         const auto& lesson = period.lesson;
         for (const auto& shown : lesson.demonstrations)
           write_trial(seat, lesson, "demo", std::nullopt, shown.half_spaces);
@@ -108,7 +111,8 @@ struct AnswerTables : RoomExport {
     for (const auto& past : session().history()) {
       const auto& feedback = past.feedback;
       for (std::size_t m = 0; m < past.revised.size(); ++m) {
-        const auto seat = history.seat_in(past.lesson.period, m + 1);
+        const auto* person = history.person_in(past.lesson.period, m + 1);
+        const auto seat = person == nullptr || !person->is_person ? 0 : person->seat;
         for (std::size_t t = 0; t < feedback.verdicts[m].size(); ++t) {
           const bool changed = !past.revised[m].empty() && past.revised[m][t] != past.answers[m][t];
           write.add(tables.discussions, {.session = id(),
@@ -149,15 +153,22 @@ std::vector<ExportedAnswer> RoomExport::given_answers() const {
                     .member = answer.member,
                     .answer = &answer});
   }
-  for (const auto& [seat, person] : history.seats) {
-    if (!person.simulated || !person.member) continue;
-    for (std::size_t period = 1; period <= session().history().size(); ++period) {
-      const auto& verdicts = session().history()[period - 1].feedback.verdicts[*person.member - 1];
-      const auto* lesson = history.lesson_of(period);
-      const bool was_there = lesson != nullptr && person.joined_us <= lesson->chosen_us;
-      if (!was_there || history.seat_in(period, *person.member) != 0) continue;
-      for (std::size_t test = 0; test < verdicts.size(); ++test)
-        rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
+  // Of stand-ins, and of people who did not answer in time.
+  const auto is_there = [&](std::size_t seat, std::size_t period, std::size_t test) {
+    return std::any_of(history.answers.begin(), history.answers.end(), [&](const AnswerRow& answer) {
+      return answer.seat == seat && answer.period == period && answer.test == test && !history.is_void(answer);
+    });
+  };
+  for (const auto& person : history.people) {
+    for (const auto& period : person.periods) {
+      for (std::size_t test = 0; test < period.verdicts.size(); ++test) {
+        if (is_there(person.seat, period.period, test)) continue;
+        rows.push_back({.period = period.period,
+                        .test = test,
+                        .seat = person.seat,
+                        .member = person.member + 1,
+                        .answer = nullptr});
+      }
     }
   }
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });

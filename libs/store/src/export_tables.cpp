@@ -34,11 +34,11 @@ void declare(TableOf<SessionRow>& table) {
       .column(&R::periods, count(kPeriods, "Completed interaction periods."))
       .column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown in completed periods."))
       .column(&R::tests, count(kTests, "Tests asked in completed periods, per member."))
-      .column(&R::share_right, {kShareRight, "Share of answered tests of completed periods that were right."})
+      .column(&R::share_right, {kShareRight, "Share of the tests of completed periods that were answered rightly."})
       .column(&R::components_learned, count("components_learned", "Components that everybody learned."))
       .column(&R::knowledge, {kKnowledge,
-                              "Mean over members of the teacher's belief that a member knows the robot's policy; "
-                              "missing if the strategy does not use beliefs about members."})
+                              "Mean over members of what they know in the end, see participants.csv; missing if nobody "
+                              "had a lesson."})
       .column(&R::digest, {"digest", "Digest of the room's final state, equal whenever the room is replayed."});
 }
 
@@ -54,11 +54,17 @@ void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options
       .column(&R::joined_ms, {"joined_ms", "When the person took the seat.", kMilliseconds})
       .column(&R::consent, {"consent", "Version of the consent text that was agreed to."})
       .column(&R::stage, {"stage", "Last page that the person saw; missing for stand-ins."})
+      .column(&R::status, {"status",
+                           "empty (nobody came), active, finished, left, dropped (was away for too long), replaced, "
+                           "withdrawn, ended (with the room, before its time), declined, full, or simulated."})
       .column(&R::times_away, count("times_away", "How often the connection was lost for more than 10 s."))
       .column(&R::seconds_away, {"seconds_away", "How long in total.", "s"})
-      .column(&R::tests, count(kTests, "Tests answered in completed periods."))
+      .column(&R::tests, count(kTests, "Tests asked in completed periods, those not answered in time included."))
       .column(&R::right, count(kRight, "Of them, answered rightly."))
       .column(&R::share_right, {kShareRight, "right / tests; missing without tests."})
+      .column(&R::knowledge, {kKnowledge,
+                              "How often the person is expected to get all of a component right, as a mean over the "
+                              "components that they were taught: what 'kith audit' says of their answers."})
       .column(&R::p_bec, {kBelief, "The teacher's final belief that the member knows the robot's policy."})
       .column(&R::estimate, {"estimate",
                              "Estimate of ability from the screening, the expected share of right answers; missing "

@@ -38,10 +38,11 @@ struct ParticipantRow {
   bool simulated;
   std::optional<std::int64_t> joined_ms{};
   std::optional<std::string> consent{}, stage{};
+  std::string status;
   std::size_t times_away;
   double seconds_away;
   std::size_t tests, right;
-  std::optional<double> share_right{}, p_bec{}, estimate{};
+  std::optional<double> share_right{}, knowledge{}, p_bec{}, estimate{};
   std::optional<std::string> name{}, query{}, code{};
 };
 
@@ -122,7 +123,7 @@ struct ExportTables {
   TableOf<SessionRow> sessions{kSessionsFile, "One room: a group that was taught together."};
   TableOf<ParticipantRow> participants{"participants.csv", "One person or stand-in in a room."};
   TableOf<PeriodRow> periods{"periods.csv", "One interaction period of a room: a lesson with its tests."};
-  TableOf<TestRow> tests{"tests.csv", "One answer of a person to one test."};
+  TableOf<TestRow> tests{"tests.csv", "One test of a person or stand-in, answered or not."};
   TableOf<DiscussionRow> discussions{
       "discussions.csv", "One answer before and after the group saw all answers, of people and of stand-ins."};
   TableOf<KeyRow> keys{"keypresses.csv", "One keypress, click or tap of an answer."};

@@ -7,6 +7,7 @@
 
 #include "export_tables.hpp"
 #include "kith/files/sha256.hpp"
+#include "kith/live/room_audit.hpp"
 #include "kith/store/session_export.hpp"
 #include "kith/table/csv_writer.hpp"
 #include "room_history.hpp"
@@ -73,6 +74,7 @@ struct RoomExport {
   const ExportTables& tables;
   TableWriters& write;
   const RoomHistory& history;
+  const std::vector<AuditedPerson>& audits;  // of history.people
 
   [[nodiscard]] const std::string& id() const { return history.replayed.id; }
   [[nodiscard]] const RoomSetup& setup() const { return history.room->setup(); }

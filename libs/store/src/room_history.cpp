@@ -20,9 +20,15 @@ class Collector {
 
   void take(const Room& room, const RoomEvent& event) {
     history_.room = room;
+    taught_.see(room);
     seat_ = seat_of_actor(event.actor).value_or(0);
     at_us_ = event.at_us;
     std::visit([&](const auto& what) { note(what); }, event.what);
+  }
+  [[nodiscard]] std::vector<TaughtPerson> people() const {
+    const auto& room = *history_.room;
+    if (room.setup().is_waiting_list || room.session().history().empty()) return {};
+    return taught_.all(room);
   }
 
  private:
@@ -147,6 +153,7 @@ class Collector {
   }
 
   RoomHistory& history_;
+  TaughtPeople taught_;
   std::size_t seat_ = 0;  // of the actor of the event
   std::int64_t at_us_ = 0;
 };
@@ -168,11 +175,14 @@ std::size_t RoomHistory::seat_of(std::size_t member) const {
   return last;
 }
 
-std::size_t RoomHistory::seat_in(std::size_t period, std::size_t member) const {
-  for (const auto& answer : answers) {
-    if (answer.period == period && answer.member == member && !is_void(answer)) return answer.seat;
+const TaughtPerson* RoomHistory::person_in(std::size_t period, std::size_t member) const {
+  for (const auto& person : people) {
+    const auto has_it = [&](const ObservedPeriod& one) { return one.period == period; };
+    if (person.member + 1 == member && std::any_of(person.periods.begin(), person.periods.end(), has_it)) {
+      return &person;
+    }
   }
-  return 0;
+  return nullptr;
 }
 
 std::string RoomHistory::stage_of(std::size_t seat) const {
@@ -212,6 +222,7 @@ RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::s
                "room " + history.replayed.id + " does not replay to what it was: " + history.replayed.problem,
                "use the version of kith and the kind of machine that the session was run with");
   }
+  history.people = collector.people();
   file.for_each_event([&](const StoredEvent& event) { history.events.push_back(event); }, stored.number);
   const auto last = history.events.empty() ? 0 : history.events.back().at_us;
   for (auto& [seat, row] : history.seats) {

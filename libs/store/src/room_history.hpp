@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/live/taught_people.hpp"
 #include "kith/store/event_file.hpp"
 #include "kith/store/session_review.hpp"
 
@@ -53,6 +54,7 @@ struct RoomHistory {
   std::map<std::size_t, SeatRow> seats;
   std::vector<LessonRow> lessons;
   std::vector<AnswerRow> answers;
+  std::vector<TaughtPerson> people;  // who took part in which periods; nobody on a waiting list
   std::vector<StoredEvent> events;
   std::int64_t started_us = 0;
   std::string ended;
@@ -61,8 +63,8 @@ struct RoomHistory {
   [[nodiscard]] const LessonRow* lesson_of(std::size_t period) const;
   // The seat that a member's place belongs to last; 0: none.
   [[nodiscard]] std::size_t seat_of(std::size_t member) const;
-  // The person who answered for a member in a period; 0: nobody, or a stand-in.
-  [[nodiscard]] std::size_t seat_in(std::size_t period, std::size_t member) const;
+  // Who took part for a member in a finished period; null: nobody.
+  [[nodiscard]] const TaughtPerson* person_in(std::size_t period, std::size_t member) const;
   // What a seat is shown at the end, see Room::stage_of().
   [[nodiscard]] std::string stage_of(std::size_t seat) const;
   // The letter of a member's type; none without a member.

@@ -32,57 +32,54 @@ struct RoomTables : RoomExport {
   void write_session() const {
     const auto& past = session().history();
     std::size_t demonstrations = 0, tests = 0, answered = 0, right = 0;
+    double knowledge = 0.0;
+    std::size_t known = 0;
+    for (const auto& one : audits) {
+      answered += one.audit.agreement.tests;
+      right += one.audit.agreement.right;
+      if (one.seat != history.seat_of(one.member) || !one.audit.knowledge()) continue;
+      knowledge += *one.audit.knowledge();
+      ++known;
+    }
     for (const auto& period : past) {
       demonstrations += period.lesson.demonstrations.size();
       tests += period.lesson.tests.size();
-      for (const auto& verdicts : period.feedback.verdicts) {
-        for (const auto& verdict : verdicts) {
-          ++answered;
-          right += verdict.correct ? 1u : 0u;
-        }
-      }
     }
     std::size_t learned = 0;
     for (const auto status : session().components()) learned += status == ComponentStatus::kLearned ? 1u : 0u;
-    double knowledge = 0.0;
-    bool is_known = true;
-    for (std::size_t member = 1; member <= session().num_members(); ++member) {
-      const auto mass = belief_in(member);
-      is_known = is_known && mass;
-      knowledge += mass.value_or(0.0) / static_cast<double>(session().num_members());
-    }
     const auto simulated = std::count(setup().simulated.begin(), setup().simulated.end(), true);
     const auto& events = history.events;
     const auto size = setup().composition.size();
-    write.add(tables.sessions, {.session = id(),
-                                .strategy = setup().strategy,
-                                .composition = setup().composition,
-                                .replicate = setup().replicate,
-                                .size = size,
-                                .people = size - static_cast<std::size_t>(simulated),
-                                .created_ms = ms_of(history.stored.created_us),
-                                .started_ms = ms_if_any(history.started_us),
-                                .last_ms = ms_if_any(events.empty() ? 0 : events.back().at_us),
-                                .stage = std::string{name_of(history.room->stage())},
-                                .ended = if_any(history.ended),
-                                .completed = session().status() == SessionStatus::kComplete,
-                                .periods = past.size(),
-                                .demonstrations = demonstrations,
-                                .tests = tests,
-                                .share_right = share(right, answered),
-                                .components_learned = learned,
-                                .knowledge = is_known ? std::optional{knowledge} : std::nullopt,
-                                .digest = history.replayed.digest});
+    write.add(tables.sessions,
+              {.session = id(),
+               .strategy = setup().strategy,
+               .composition = setup().composition,
+               .replicate = setup().replicate,
+               .size = size,
+               .people = size - static_cast<std::size_t>(simulated),
+               .created_ms = ms_of(history.stored.created_us),
+               .started_ms = ms_if_any(history.started_us),
+               .last_ms = ms_if_any(events.empty() ? 0 : events.back().at_us),
+               .stage = std::string{name_of(history.room->stage())},
+               .ended = if_any(history.ended),
+               .completed = session().status() == SessionStatus::kComplete,
+               .periods = past.size(),
+               .demonstrations = demonstrations,
+               .tests = tests,
+               .share_right = share(right, answered),
+               .components_learned = learned,
+               .knowledge = known > 0 ? std::optional{knowledge / static_cast<double>(known)} : std::nullopt,
+               .digest = history.replayed.digest});
   }
 
   void write_participant(std::size_t seat, const SeatRow& person) const {
     std::size_t tests = 0, right = 0;
-    for (const auto& given : given_answers()) {
-      const bool is_own = given.seat == seat && (given.answer == nullptr || !history.is_void(*given.answer));
-      const auto* judged = is_own ? history.verdict(given.period, given.member, given.test) : nullptr;
-      if (judged == nullptr) continue;
-      ++tests;
-      right += judged->correct ? 1u : 0u;
+    std::optional<double> knowledge;
+    for (const auto& one : audits) {
+      if (one.seat != seat || !one.audit.knowledge()) continue;
+      tests += one.audit.agreement.tests;
+      right += one.audit.agreement.right;
+      knowledge = one.audit.knowledge();
     }
     const auto group = setup().is_waiting_list ? RoomSetup{} : setup();
     const auto stage = history.stage_of(seat);
@@ -100,11 +97,13 @@ struct RoomTables : RoomExport {
                        .joined_ms = ms_if_any(person.joined_us),
                        .consent = if_any(person.consent),
                        .stage = if_any(stage),
+                       .status = seat <= history.room->num_seats() ? history.room->status_of(seat) : "empty",
                        .times_away = person.times_away,
                        .seconds_away = static_cast<double>(person.away_us) / 1e6,
                        .tests = tests,
                        .right = right,
                        .share_right = share(right, tests),
+                       .knowledge = knowledge,
                        .p_bec = is_last ? belief_in(*person.member) : std::nullopt,
                        .name = if_any(printable(person.name))};
     if (is_screened) row.estimate = screening_estimate(passed, screened.size());

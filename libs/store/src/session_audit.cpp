@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kith/core/error.hpp"
-#include "kith/live/taught_people.hpp"
+#include "kith/live/room_audit.hpp"
 #include "kith/present/audit_people.hpp"
 #include "kith/store/session_review.hpp"
 #include "kith/store/session_study.hpp"
@@ -40,22 +40,6 @@ TaughtRoom taught_in(EventFile& file, const StoredRoom& stored, const std::share
   return result;
 }
 
-std::vector<ObservedPerson> observed(TaughtRoom room) {
-  const auto& setup = room.setup;
-  std::vector<ObservedPerson> group;
-  for (auto& taught : room.people) {
-    AuditedPerson person;
-    person.room = setup.id;
-    person.group = "room " + setup.id + " (" + setup.strategy + ", " + setup.composition + ")";
-    person.member = taught.member + 1;
-    person.seat = taught.seat;
-    person.type = setup.composition.at(taught.member);
-    person.simulated = !taught.is_person;
-    group.push_back({std::move(person), std::move(taught.periods)});
-  }
-  return group;
-}
-
 }  // namespace
 
 SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
@@ -69,8 +53,8 @@ SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
   const auto rooms = options.room.empty() ? file.rooms() : std::vector{find_room(file, options.room)};
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     if (options.on_progress) options.on_progress(i, rooms.size());
-    auto group = observed(taught_in(file, rooms[i], result.study, cache));
-    for (auto& person : audit_people(cache, teaching, options.forgetting, std::move(group))) {
+    auto room = taught_in(file, rooms[i], result.study, cache);
+    for (auto& person : audit_room(cache, *result.study, room.setup, std::move(room.people), options.forgetting)) {
       report.people.push_back(std::move(person));
     }
   }

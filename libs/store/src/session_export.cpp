@@ -52,7 +52,8 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
     is_there = true;
     rooms += room_setup(Json::parse(stored.setup)).is_waiting_list ? 0u : 1u;
     const auto history = read_history(file, stored, study, cache);
-    const RoomExport room{*study, told, tables, write, history};
+    const auto audits = audit_room(cache, *study, history.room->setup(), history.people);
+    const RoomExport room{*study, told, tables, write, history, audits};
     write_room(room);
     write_answers(room);
     events += file.count_events(stored.number);

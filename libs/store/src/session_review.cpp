@@ -110,6 +110,7 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
 
   // Both lists are in the order of rooms.
   auto at = rooms.begin();
+  std::set<std::pair<std::int64_t, std::size_t>> gone;  // rooms and seats
   file.for_each_event([&](const StoredEvent& event) {
     while (at != rooms.end() && at->number < event.room) ++at;
     if (at == rooms.end() || at->number != event.room) return;
@@ -118,12 +119,27 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
 
     const auto is = [&](const RoomEventKind& kind) { return event.type == kind.word; };
     at->joined += is(happening::Joined::kKind) || is(happening::Seated::kKind) ? 1u : 0u;
-    at->lessons += is(happening::LessonChosen::kKind) ? 1u : 0u;
+    if (is(happening::LessonChosen::kKind)) {
+      const auto body = body_of(event);
+      at->is_taught = body.value("finished", false);
+      if (!at->is_taught) at->lessons = body.value("period", at->lessons);
+    }
+    if (is(happening::Left::kKind)) gone.emplace(event.room, seat_of_actor(event.actor).value_or(0));
+    if (is(happening::Dropped::kKind) || is(happening::Simulated::kKind)) {
+      gone.emplace(event.room, body_of(event).value("seat", std::size_t{0}));
+    }
+    if (is(happening::Readmitted::kKind) || is(happening::Present::kKind)) {
+      gone.erase({event.room, body_of(event).value("seat", std::size_t{0})});
+    }
     at->answers += is(happening::Answered::kKind) ? 1u : 0u;
     at->has_started = at->has_started || is(happening::Started::kKind);
     if (is(happening::Ended::kKind)) at->ended = body_of(event).value("reason", std::string{});
   });
 
+  for (auto& room : rooms) {
+    room.gone = static_cast<std::size_t>(
+        std::count_if(gone.begin(), gone.end(), [&](const auto& one) { return one.first == room.number; }));
+  }
   return rooms;
 }
 

@@ -109,6 +109,10 @@ class Room {
   /// The stage in docs/live-protocol.md: "consent", "check", "screening", "lobby", "watch", "predict", "wait",
   /// "feedback", "questions", "debrief", "declined", "ended", "replaced", "full". Empty for stand-ins.
   [[nodiscard]] std::string stage_of(std::size_t seat) const;
+  /// Whether somebody still takes part, and how it ended for them: "empty", "active", "finished", "left", "dropped"
+  /// (was away for too long), "replaced", "withdrawn", "ended" (with the room, before its time), "declined", "full" or
+  /// "moved" (from the waiting list to a group); "simulated" for stand-ins.
+  [[nodiscard]] std::string status_of(std::size_t seat) const;
 
   /// Which events a command leads to. Changes nothing. A command that was accepted before in the same state (the same
   /// answer again) gives neither events nor a refusal. Never throws for what people send.

@@ -23,6 +23,8 @@ class TaughtPeople {
   /// To be called after every event of the room. Who answered the tests of a period took part in it; where nobody did,
   /// who has the place at its end.
   void see(const Room& room);
+  /// Completed ones so far.
+  [[nodiscard]] std::size_t num_periods() const noexcept { return periods_.size(); }
   /// Everybody with a completed period, and who has a place now, by place and then in the order in which they had it.
   /// @pre see(room) was called last with this state.
   [[nodiscard]] std::vector<TaughtPerson> all(const Room& room) const;

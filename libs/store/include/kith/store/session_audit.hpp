@@ -5,16 +5,16 @@
 #include <memory>
 #include <string>
 
-#include "kith/live/live_study.hpp"
+#include "kith/live/room_audit.hpp"
 #include "kith/present/audit_report.hpp"
 #include "kith/store/event_file.hpp"
 
 namespace kith {
 
 struct SessionAuditOptions {
-  std::string source;        ///< The folder, as it was named.
-  std::string room;          ///< Id or code of a room; empty: all rooms.
-  double forgetting = 0.02;  ///< AuditOptions::forgetting.
+  std::string source;               ///< The folder, as it was named.
+  std::string room;                 ///< Id or code of a room; empty: all rooms.
+  double forgetting = kForgetting;  ///< AuditOptions::forgetting.
   /// Told how many rooms are judged, of how many; what it throws ends the audit.
   std::function<void(std::size_t done, std::size_t total)> on_progress;
 };

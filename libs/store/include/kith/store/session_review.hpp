@@ -23,10 +23,12 @@ struct RoomSummary {
   std::int64_t last_us = 0;  ///< Of the last event; 0 without events.
   std::uint64_t events = 0;
   std::size_t joined = 0;   ///< People who took a seat.
-  std::size_t lessons = 0;  ///< Chosen.
+  std::size_t gone = 0;     ///< Of them, who left, dropped out or were replaced before the end.
+  std::size_t lessons = 0;  ///< Taught, the one under way included.
   std::size_t answers = 0;
   bool has_started = false;
-  std::string ended{};  ///< Why, if it ended before its time.
+  bool is_taught = false;  ///< Whether nothing is left to teach.
+  std::string ended{};     ///< Why, if it ended before its time.
 };
 
 /// The rooms of a session, in order, from their events alone: no lesson is chosen again.
