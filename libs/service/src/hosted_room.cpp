@@ -51,9 +51,7 @@ void HostedRoom::begin(TeachingCache& cache) {
 void HostedRoom::rebuild(std::vector<StoredEvent> events) {
   host_.teach(TeachingPool::Urgency::kNow,
               [self = shared_from_this(), events = std::move(events)](TeachingCache& cache) {
-                std::optional<Room> room;
-                std::vector<std::uint64_t> messages;
-                std::string problem;
+                Rebuilt result;
                 std::int64_t last = 0;
 
                 // A room that does not replay is kept as it is stored, and says why it stands still.
@@ -61,31 +59,32 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
                   Room rebuilt{self->study_, self->setup_, cache};
                   for (const auto& event : events) {
                     rebuilt.apply(room_event_of(event), cache);
-                    if (event.message) messages.push_back(mark_of(event.actor, *event.message));
+                    result.taught.see(rebuilt);
+                    if (event.message) result.messages.push_back(mark_of(event.actor, *event.message));
                     last = event.at_us;
                   }
-                  rebuilt.release();
-                  room = std::move(rebuilt);
+                  release(rebuilt, result.taught, result.observed);
+                  result.room = std::move(rebuilt);
                 } catch (const std::exception& error) {
-                  problem = error.what();
+                  result.problem = error.what();
                 }
 
-                self->host_.post(self->number(), [self, room = std::move(room), messages = std::move(messages), problem,
-                                                  last](TeachingCache&) mutable {
+                self->host_.post(self->number(), [self, result = std::move(result), last](TeachingCache&) mutable {
                   self->last_us_ = last;
-                  self->finish_rebuild(std::move(room), std::move(messages), problem);
+                  self->finish_rebuild(std::move(result));
                 });
               });
 }
 
-void HostedRoom::finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages,
-                                const std::string& problem) {
-  room_ = std::move(room);
-  messages_ = std::move(messages);
+void HostedRoom::finish_rebuild(Rebuilt rebuilt) {
+  room_ = std::move(rebuilt.room);
+  taught_ = std::move(rebuilt.taught);
+  observed_ = std::move(rebuilt.observed);
+  messages_ = std::move(rebuilt.messages);
   std::sort(messages_.begin(), messages_.end());
   if (!room_) {
-    broken_ = problem;
-    host_.on_trouble(number(), "room " + setup_.code + " cannot be rebuilt: " + problem);
+    broken_ = rebuilt.problem;
+    host_.on_trouble(number(), "room " + setup_.code + " cannot be rebuilt: " + broken_);
   }
   has_changed_ = true;
   if (room_) host_.on_applied(*this, {});
@@ -227,6 +226,7 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
   try {
     for (const auto& event : done->events) {
       room_->apply(event, cache, event.get<happening::LessonChosen>() != nullptr ? done->lesson.get() : nullptr);
+      taught_.see(*room_);
       has_changed_ = has_changed_ || event.kind().changes_lessons;
       last_us_ = event.at_us;
     }
@@ -250,10 +250,16 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
   advance();
 }
 
+void HostedRoom::release(Room& room, const TaughtPeople& taught, std::vector<TaughtPerson>& observed) {
+  const auto before = room;
+  room.release();
+  if (!room.holds_session() && before.holds_session() && taught.num_periods() > 0) observed = taught.all(before);
+}
+
 // A room whose group is not taught any more stays for its pages; what only teaching needs does not.
 void HostedRoom::release() {
   if (!room_->holds_session()) return;
-  room_->release();
+  release(*room_, taught_, observed_);
   if (room_->holds_session()) return;
   lessons_.clear();
   wanted_.clear();

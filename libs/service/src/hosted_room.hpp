@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kith/live/room.hpp"
+#include "kith/live/taught_people.hpp"
 #include "kith/store/event_file.hpp"
 #include "strands.hpp"
 #include "teaching_pool.hpp"
@@ -95,6 +96,11 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   void fill(std::vector<RoomEvent> events, TeachingCache& cache);
   // Nobody does: the departure is saved as it is.
   void depart();
+  // What can be observed of everybody who was taught, for audits, and of how many periods.
+  [[nodiscard]] std::vector<TaughtPerson> observed() const {
+    return room_->holds_session() ? taught_.all(*room_) : observed_;
+  }
+  [[nodiscard]] std::size_t num_periods() const noexcept { return taught_.num_periods(); }
   // The time of what happens now: never before that of the last event.
   [[nodiscard]] std::int64_t now() const;
   // Something may be due by the clock, or could not be saved and is to be tried again.
@@ -119,7 +125,17 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
     bool has_failed = false;
   };
 
-  void finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages, const std::string& problem);
+  // What there is of a room, and who was taught in it.
+  struct Rebuilt {
+    std::optional<Room> room;
+    TaughtPeople taught;
+    std::vector<TaughtPerson> observed;
+    std::vector<std::uint64_t> messages;
+    std::string problem;
+  };
+  void finish_rebuild(Rebuilt rebuilt);
+  // Releases a room, keeping what audits need.
+  static void release(Room& room, const TaughtPeople& taught, std::vector<TaughtPerson>& observed);
   void advance();
   void do_what_can_be_done();
   void release();
@@ -144,6 +160,8 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   std::atomic<bool> may_have_free_seat_ = true;
 
   std::optional<Room> room_;
+  TaughtPeople taught_;
+  std::vector<TaughtPerson> observed_;   // once the session is released
   std::string broken_;                   // why it cannot go on
   std::int64_t last_us_ = 0;             // of the last event
   std::vector<std::uint64_t> messages_;  // whose effects are saved; sorted

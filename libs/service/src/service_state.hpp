@@ -109,6 +109,14 @@ struct LiveService::State final : HostedRoom::Host {
   std::size_t ticks_since_shown = 0;     // news to them
   std::size_t ticks_awaited = 0;         // of those to come: a facilitator waits for what they asked for
   std::multiset<std::int64_t> selected;  // rooms that facilitators look at
+  // Who of a room understands what, see people_json(), after so many periods.
+  struct RoomAudit {
+    std::size_t periods = 0;
+    std::shared_ptr<const Json> people;
+  };
+  std::map<std::int64_t, RoomAudit> audits;
+  std::set<std::int64_t> to_audit;
+  std::atomic<bool> is_auditing = false;  // one room at a time: nobody's lesson waits for long
   std::deque<LogEntry> log;
   std::map<std::int64_t, std::string> troubles;                        // by room
   std::map<std::pair<std::int64_t, std::string>, std::string> unseen;  // by room, and what of it cannot be shown
@@ -228,6 +236,9 @@ struct LiveService::State final : HostedRoom::Host {
   // Shows something of a room to whoever looks. If that fails facilitators read why, and the room goes on.
   bool can_show(const HostedRoom& hosted, const std::string& what, const std::function<void()>& show);
   void take_picture(HostedRoom& hosted);
+  // Has who understands what computed anew where facilitators look, or where somebody has many wrong answers; aside.
+  void audit_next();
+  void keep_audit(std::int64_t number, RoomAudit audit);
   void show_facilitators();
   // Shows them at the next tick what there is, and at the one after it the pictures that are taken meanwhile. @pre the
   // mutex is held.

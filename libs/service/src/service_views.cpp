@@ -1,10 +1,12 @@
 // What facilitators and observers see.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "kith/live/room_audit.hpp"
 #include "service_state.hpp"
 
 namespace kith {
@@ -12,13 +14,22 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1000;
 
-// A room's row, and for each of its seats what is not known to the room.
+// Whether a person has so many wrong answers that they may need help.
+bool has_many_wrong(const Json& row) {
+  constexpr std::size_t kFew = 6;  // tests
+  return std::any_of(row.at("seats").begin(), row.at("seats").end(), [](const Json& seat) {
+    const auto tests = seat.value("tests", std::size_t{0});
+    return seat.at("kind") == "person" && tests >= kFew && 3 * seat.at("right").get<std::size_t>() < 2 * tests;
+  });
+}
+
+// A room's row, who of it understands what, and for each of its seats what is not known to the room.
 struct Row {
   struct Seat {
     std::optional<double> latency_ms;
     std::optional<std::string> link;
   };
-  std::shared_ptr<const Json> row;
+  std::shared_ptr<const Json> row, people;
   std::vector<Seat> seats;
 };
 
@@ -29,6 +40,11 @@ Json filled(const Row& from) {
     if (added->latency_ms) seat["latency_ms"] = *added->latency_ms;
     if (added->link) seat["link"] = *added->link;
     ++added;
+    if (!from.people) continue;
+    for (const auto& person : *from.people) {
+      if (person.at("seat") == seat.at("seat") && person.contains("needs_help"))
+        seat["needs_help"] = person["needs_help"];
+    }
   }
   return row;
 }
@@ -71,9 +87,59 @@ void LiveService::State::take_picture(HostedRoom& hosted) {
   };
   take(Viewer::Role::kFacilitator, picture.row, picture.detail);
   take(Viewer::Role::kObserver, picture.observer_row, picture.observer_detail);
-  const std::lock_guard lock{mutex};
-  pictures[hosted.number()] = std::move(picture);
-  has_news = true;
+  {
+    const std::lock_guard lock{mutex};
+    const bool is_of_interest = is_selected || (picture.row && has_many_wrong(*picture.row));
+    const auto known = audits.find(hosted.number());
+    const auto judged = known == audits.end() ? std::size_t{0} : known->second.periods;
+    if (is_of_interest && hosted.num_periods() > judged) to_audit.insert(hosted.number());
+    pictures[hosted.number()] = std::move(picture);
+    has_news = true;
+  }
+  audit_next();
+}
+
+void LiveService::State::audit_next() {
+  std::shared_ptr<HostedRoom> hosted;
+  {
+    const std::lock_guard lock{mutex};
+    if (is_auditing || to_audit.empty() || is_stopping) return;
+    auto next =
+        std::find_if(to_audit.begin(), to_audit.end(), [&](auto number) { return selected.count(number) != 0; });
+    if (next == to_audit.end()) next = to_audit.begin();
+    const auto found = rooms.find(*next);
+    to_audit.erase(next);
+    if (found == rooms.end()) return;
+    hosted = found->second;
+    is_auditing = true;
+  }
+  post(hosted->number(), [this, hosted](TeachingCache&) {
+    RoomAudit audit{.periods = hosted->num_periods(), .people = nullptr};
+    if (hosted->room() == nullptr) {
+      is_auditing = false;
+      return;
+    }
+    // Where many wait the job may be forgotten; then the next picture asks again.
+    std::shared_ptr<void> turn{nullptr, [this](void*) { is_auditing = false; }};
+    teach(TeachingPool::Urgency::kAhead,
+          [this, hosted, audit, turn = std::move(turn), people = hosted->observed()](TeachingCache& cache) mutable {
+            can_show(*hosted, "audit", [&] {
+              const auto judged = audit_room(cache, *study, hosted->setup(), std::move(people));
+              audit.people = std::make_shared<const Json>(people_json(*study->atlas, judged));
+            });
+            turn.reset();
+            keep_audit(hosted->number(), std::move(audit));
+          });
+  });
+}
+
+void LiveService::State::keep_audit(std::int64_t number, RoomAudit audit) {
+  {
+    const std::lock_guard lock{mutex};
+    audits[number] = std::move(audit);
+    has_news = true;
+  }
+  audit_next();
 }
 
 // Shows facilitators what is new. On the strand of the service.
@@ -119,7 +185,8 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
   for (const auto& [number, picture] : pictures) {
     const auto& row = is_facilitator ? picture.row : picture.observer_row;
     if (!row || row->is_null()) continue;
-    auto& added = rows.emplace_back(Row{row, {}});
+    const auto audit = audits.find(number);
+    auto& added = rows.emplace_back(Row{row, audit == audits.end() ? nullptr : audit->second.people, {}});
     for (const auto& seat : row->at("seats")) {
       auto& [latency_ms, link] = added.seats.emplace_back();
       const Place place{number, seat.at("seat").get<std::int64_t>()};
@@ -138,6 +205,8 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
   }
 
   const auto selected_room = pictures.find(connection.selected);
+  std::shared_ptr<const Json> people;
+  if (const auto audit = audits.find(connection.selected); audit != audits.end()) people = audit->second.people;
   if (selected_room != pictures.end()) {
     detail = is_facilitator ? selected_room->second.detail : selected_room->second.observer_detail;
   }
@@ -153,7 +222,10 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
 
   view["rooms"] = Json::array();
   for (const auto& row : rows) view["rooms"].push_back(filled(row));
-  if (detail && !detail->is_null()) view["room"] = *detail;
+  if (detail && !detail->is_null()) {
+    view["room"] = *detail;
+    if (people) view["room"]["people"] = *people;
+  }
   view["log"] = std::move(lines);
   view["integrity"] = counters;
   return view;

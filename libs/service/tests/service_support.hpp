@@ -27,12 +27,12 @@ namespace kith::testing {
 
 /// A study of item delivery that is quick to teach. @param group  the lines of its section [group].
 [[nodiscard]] inline SessionStudy small_study(const std::string& group = "",
-                                              const std::string& compositions = "\"NNP\"",
-                                              std::size_t particles = 200) {
+                                              const std::string& compositions = "\"NNP\"", std::size_t particles = 200,
+                                              const std::string& strategies = "\"common\"") {
   const std::string text =
       "schema = \"kith.study/1\"\nid = \"small\"\ntitle = \"small\"\ndomain = \"item-delivery\"\nseed = 7\n"
-      "replicates = 3\n[design]\nstrategies = [\"common\"]\ncompositions = [" +
-      compositions +
+      "replicates = 3\n[design]\nstrategies = [" +
+      strategies + "]\ncompositions = [" + compositions +
       "]\n[learner.N]\nlabel = \"novice\"\nability = { mean = 0.703, sd = 0.034 }\n"
       "confirm_gain = { half_normal = 0.033 }\ncorrect_gain = { half_normal = 0.056 }\n"
       "[learner.P]\nlabel = \"proficient\"\nability = { mean = 0.809, sd = 0.025 }\n"

@@ -166,7 +166,8 @@ ReplayedRoom replay_room(EventFile& file, const StoredRoom& stored, const std::s
       const auto event = room_event_of(stored_event);
       room.apply(event, cache);
       ++replayed.events;
-      replayed.lessons += event.get<happening::LessonChosen>() != nullptr ? 1u : 0u;
+      const auto* chosen = event.get<happening::LessonChosen>();
+      if (chosen != nullptr && !chosen->finished) replayed.lessons = chosen->period;
       if (on_event) on_event(room, event);
     }
     replayed.digest = room.digest();

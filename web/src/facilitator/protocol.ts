@@ -41,6 +41,8 @@ export interface SeatRow {
   stage_since_ms?: number;
   stage: string;
   dropped?: boolean; // the group goes on without them
+  status?: 'empty' | 'active' | 'finished' | 'left' | 'dropped' | 'replaced' | 'withdrawn' | 'ended' | 'declined' | 'full' | 'moved' | 'simulated';
+  needs_help?: string; // why, by what kith audit says of their answers
   why?: string;
   latency_ms?: number;
   estimate?: Estimate;
@@ -130,10 +132,15 @@ export interface Timer {
   until_ms?: number;
 }
 
-// What the teacher believes of a member while the group is taught.
-export interface MemberBelief {
+// Who understands what: what `kith audit` says of a person's answers in the periods so far.
+export interface PersonAudit {
+  seat: number;
   member: number;
-  knows: number; // probability of predicting the current component rightly
+  tests: number;
+  right: number;
+  knows: number; // how often they are expected to get all of a component right: the mean over those taught
+  components: { name: string; understanding: string; verdict: string; level: number | null }[];
+  needs_help?: string; // why
   thinks?: string; // the misconception that is most probable
   probability?: number; // of it
   kind?: string; // the kind of learner, or that it cannot be told yet; if the study asks for kinds
@@ -158,7 +165,7 @@ export interface RoomDetail {
   lesson?: LessonNow;
   answers: Answer[];
   curves: CurvePoint[];
-  members?: MemberBelief[];
+  people?: PersonAudit[];
   beliefs: Belief[];
   truth?: Truth;
   timers: Timer[];

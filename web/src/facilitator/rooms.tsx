@@ -109,6 +109,7 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
       </th>
       <td>
         <span class={`badge ${room.stage}`}>{kStages[room.stage]}</span>
+        {room.stage === 'ended' && <span class="hint"> {endText(room.ended)}</span>}
       </td>
       <td>
         {room.strategy}
@@ -127,7 +128,7 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
       <td>{room.stage === 'lobby' ? '' : room.component}</td>
       <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : duration(now - room.started_ms)}</td>
       <td>{forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : ''}</td>
-      <td class={room.stage === 'ended' ? 'ended-cell' : 'worry-cell'}>{room.stage === 'ended' ? endText(room.ended) : attention(room)}</td>
+      <td class="worry-cell">{attention(room)}</td>
     </tr>
   );
 }

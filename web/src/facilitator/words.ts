@@ -136,8 +136,8 @@ export const kTerms = {
   simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. The consent form informs participants about it.',
   interactions: 'Period: one round of demonstrations, tests and feedback.',
   runners_up: 'Runners-up: the demonstrations with the next largest gains. They were not shown. A gain of 2\u00d7 means that half of the rewards that were still possible would be ruled out.',
-  knows: 'Knows this part: the probability, by the teacher\u2019s belief about this person, that they predict all of the current component rightly.',
-  thinks: 'Likely thinks: the misconception about what was taught so far that is most probable by the teacher\u2019s belief about this person. Nothing is named below 10\u00a0%.',
+  knows: 'Knows: how often this person is expected to predict all of a component rightly, as a mean over the components taught so far. As in kith audit: from all answers in finished periods.',
+  thinks: 'Likely thinks: the misconception about what was taught so far that is most probable by this person\u2019s answers. Nothing is named below 10\u00a0%.',
   learner_kind: 'Kind of learner: how this person seems to learn and answer, by their answers so far. A kind is named from a probability of 80\u00a0% on.',
   unsaved: 'Unsaved: events that have been accepted but not yet written to disk. The browser gets an acknowledgement only after the write.',
 };
@@ -162,17 +162,30 @@ export function estimateText(estimate: Estimate | undefined): string {
 
 export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
 
-// Whether somebody who is not there any more stayed until the end.
-export const isFinished = ({ stage, why }: SeatRow): boolean =>
-  stage === 'debrief' || (stage === 'ended' && why !== undefined && why !== 'left');
+// How it ended for somebody.
+const kStatuses: Record<string, string> = {
+  finished: 'finished',
+  left: 'left',
+  dropped: 'dropped out',
+  replaced: 'replaced',
+  withdrawn: 'withdrawn',
+  ended: 'room ended early',
+  declined: 'declined to take part',
+  full: 'turned away, room full',
+};
+export const statusOf = ({ status, dropped, stage }: SeatRow): string => status ?? (dropped ? 'dropped' : stage === 'debrief' ? 'finished' : stage);
+export const statusText = (seat: SeatRow): string => kStatuses[statusOf(seat)] ?? kPresence.left;
+// Whether nothing more is expected of them.
+export const isOver = (seat: SeatRow): boolean => statusOf(seat) in kStatuses;
 
 // What of a room needs a person's attention, or nothing.
 export function attention(room: RoomRow): string | null {
   if (room.stage === 'ended') return null;
-  const away = room.seats.filter(({ presence }) => presence === 'away');
+  const away = room.seats.filter((seat) => seat.presence === 'away' && !isOver(seat));
   if (away.length > 0) return `${away.map(({ label }) => label).join(', ')} away`;
   if (room.stage === 'paused') return 'Paused';
-  return null;
+  const helpless = room.seats.filter(({ needs_help }) => needs_help !== undefined);
+  return helpless.length > 0 ? `${helpless.map(({ label }) => label).join(', ')} may need help` : null;
 }
 
 export const seatTitle = (seat: SeatRow): string => (seat.name ? `${seat.label} (${seat.name})` : seat.label);

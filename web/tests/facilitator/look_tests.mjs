@@ -213,7 +213,7 @@ export function lookTests({ withPage, violations, shoot }) {
     ];
     const ask = (detail) => ({
       ...detail,
-      members: detail.members.map((member, i) => ({ ...member, kind: kinds[i % 2][0], kinds: kinds[i % 2][1] })),
+      people: detail.people.map((member, i) => ({ ...member, kind: kinds[i % 2][0], kinds: kinds[i % 2][1] })),
     });
     for (const [title, people] of [['Room A1', 3], ['Room A2', 12]]) {
       for (const dark of [false, true]) {

@@ -165,11 +165,15 @@ export function roomDetail(random, now, row) {
     ...(stage === 'lobby' ? {} : { lesson: lessonOf(1) }),
     answers,
     curves: stage === 'lobby' ? [] : curves,
-    members:
+    people:
       stage === 'running' || stage === 'paused'
         ? seats.map((_, i) => ({
+            seat: i + 1,
             member: i + 1,
+            tests: answers.filter(({ seat }) => seat === i + 1).length,
+            right: answers.filter(({ seat, right }) => seat === i + 1 && right).length,
             knows: share(pullAt(period, i)),
+            components: [{ name: 'rubble', understanding: 'cannot-tell', verdict: 'cannot tell yet: the answers do not decide it', level: share(pullAt(period, i)) }],
             ...(i % 3 === 2 ? {} : { thinks: `crossing rubble costs at most ${1 + (i % 4)} steps`, probability: 0.42 }),
           }))
         : [],

@@ -3,10 +3,10 @@ import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { duration } from '../../shared/duration';
 import { secondsText, useNow } from '../clock';
-import type { Answer, MemberBelief, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
+import type { Answer, PersonAudit, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
 import { memberOfSeat } from './beliefs';
-import { isFinished, kPresence, personStage, seatTitle, typeLabel } from '../words';
+import { isOver, kPresence, personStage, seatTitle, statusOf, statusText, typeLabel } from '../words';
 
 interface Column {
   period: number;
@@ -39,8 +39,8 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const columns = columnsOf(detail.answers);
   const byPlace = new Map(detail.answers.map((answer) => [`${answer.seat}/${answer.period}/${answer.test}`, answer]));
   const hasStageTimes = room.seats.some(({ stage_since_ms }) => stage_since_ms !== undefined);
-  const beliefs = new Map((detail.members ?? []).map((one) => [one.member, one]));
-  const hasKinds = [...beliefs.values()].some(({ kind }) => kind !== undefined);
+  const audits = new Map((detail.people ?? []).map((one) => [one.seat, one]));
+  const hasKinds = [...audits.values()].some(({ kind }) => kind !== undefined);
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
   // The latest answers are at the right end, which has to be seen.
   const box = useRef<HTMLDivElement>(null);
@@ -61,12 +61,12 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
             <th scope="col" class="number">
               Right
             </th>
-            {beliefs.size > 0 && (
+            {audits.size > 0 && (
               <th scope="col" class="number">
                 <Explained term="knows">Knows</Explained>
               </th>
             )}
-            {beliefs.size > 0 && (
+            {audits.size > 0 && (
               <th scope="col">
                 <Explained term="thinks">Likely thinks</Explained>
               </th>
@@ -111,13 +111,13 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
                   </span>
                 )}
               </th>
-              <td class={`state ${seat.dropped ? 'left' : seat.presence}`} data-tip={whereabouts(seat, now)}>
-                {seat.presence === 'away' ? kPresence.away : stateText(seat)}
+              <td class={`state ${isOver(seat) ? 'left' : seat.presence}`} data-tip={whereabouts(seat, now)}>
+                {seat.presence === 'away' && !isOver(seat) ? kPresence.away : stateText(seat)}
               </td>
               <td class="number">{timeText(seat, now)}</td>
               <td class="number">{rightText(detail.answers, seat)}</td>
-              {beliefs.size > 0 && <Thought belief={beliefs.get(memberOfSeat(seat))} isOut={seat.presence === 'left'} />}
-              {hasKinds && <Kind belief={beliefs.get(memberOfSeat(seat))} isOut={seat.presence === 'left'} />}
+              {audits.size > 0 && <Thought audit={audits.get(seat.seat)} />}
+              {hasKinds && <Kind audit={audits.get(seat.seat)} />}
               {columns.map(({ period, test, isFirst }) => (
                 <Cell answer={byPlace.get(`${seat.seat}/${period}/${test}`)} where={`period ${period}, test ${test}`} longest={longest} isFirst={isFirst} />
               ))}
@@ -137,38 +137,39 @@ function rightText(answers: Answer[], { seat }: SeatRow): string {
   return own.length === 0 ? '' : `${own.filter(({ right }) => right).length}/${own.length}`;
 }
 
-// What the teacher believes of somebody: two cells.
-function Thought({ belief, isOut }: { belief: MemberBelief | undefined; isOut: boolean }): JSX.Element {
+// What somebody knows and thinks, by their answers: two cells.
+function Thought({ audit }: { audit: PersonAudit | undefined }): JSX.Element {
   const share = (value: number): string => `${Math.round(100 * value)} %`;
-  const thinks = isOut ? undefined : belief?.thinks;
+  const verdicts = audit?.components.filter(({ level }) => level !== null).map(({ name, verdict, level }) => `${name}: ${verdict}, ${share(level ?? 0)}`);
   return (
     <>
-      <td class="number">{belief && !isOut ? share(belief.knows) : ''}</td>
-      <td class="thinks" data-tip={thinks && `Thinks that ${thinks} (${share(belief?.probability ?? 0)})`}>
-        {thinks ?? ''}
+      <td class="number" data-tip={verdicts?.join('; ')}>
+        {audit ? share(audit.knows) : ''}
+      </td>
+      <td class="thinks" data-tip={audit?.thinks && `Thinks that ${audit.thinks} (${share(audit.probability ?? 0)})`}>
+        {audit?.thinks ?? ''}
       </td>
     </>
   );
 }
 
 // What kind of learner somebody seems to be, with all probabilities from 1 % on.
-function Kind({ belief, isOut }: { belief: MemberBelief | undefined; isOut: boolean }): JSX.Element {
-  if (!belief?.kind || isOut) return <td />;
-  const all = Object.entries(belief.kinds ?? {})
+function Kind({ audit }: { audit: PersonAudit | undefined }): JSX.Element {
+  if (!audit?.kind) return <td />;
+  const all = Object.entries(audit.kinds ?? {})
     .map(([kind, probability]) => ({ kind, percent: Math.round(100 * probability) }))
     .filter(({ percent }) => percent > 0)
     .sort((a, b) => b.percent - a.percent);
   return (
     <td class="thinks kind" data-tip={all.map(({ kind, percent }) => `${kind} ${percent} %`).join(', ')}>
-      {belief.kind}
+      {audit.kind}
     </td>
   );
 }
 
 export function stateText(seat: SeatRow): string {
   if (seat.kind === 'simulated') return 'simulated';
-  if (seat.dropped) return 'dropped out';
-  if (seat.presence === 'left') return isFinished(seat) ? 'finished' : kPresence.left;
+  if (isOver(seat)) return statusText(seat);
   if (seat.presence === 'empty') return kPresence.empty;
   return seat.presence === 'away' ? `away (${personStage(seat.stage)})` : personStage(seat.stage);
 }
@@ -177,10 +178,8 @@ export function stateText(seat: SeatRow): string {
 export function whereabouts(seat: SeatRow, now: number): string {
   if (seat.kind === 'simulated') return 'simulated learner';
   if (seat.presence === 'empty' || seat.since_ms === 0) return stateText(seat);
-  const doing = seat.dropped ? 'dropped out' : personStage(seat.stage);
-  if (seat.presence === 'left' && isFinished(seat)) return `finished; gone for ${duration(now - seat.since_ms)}`;
-  const presence = `${kPresence[seat.presence]} for ${duration(now - seat.since_ms)}`;
-  return seat.presence === 'left' ? presence : `${doing}; ${presence}`;
+  if (seat.presence === 'left') return `${statusText(seat)}; gone for ${duration(now - seat.since_ms)}`;
+  return `${isOver(seat) ? statusText(seat) : personStage(seat.stage)}; ${kPresence[seat.presence]} for ${duration(now - seat.since_ms)}`;
 }
 
 // How long somebody has been at their stage, or else connected or away.
@@ -190,17 +189,20 @@ function timeText(seat: SeatRow, now: number): string {
   return since === 0 || seat.presence === 'empty' ? '' : duration(now - since);
 }
 
-// Shape and colour: a full circle is connected, a half one away, a ring empty, a cross left, a square a program.
+// A tick has finished, a dash was in a room that ended before its time; everybody else who is gone has a cross.
+const kMarks: Partial<Record<string, string>> = { finished: 'M-4 .5-1 3.5 4.5 -3.5', ended: 'M-4 0H4' };
+
+// Shape and colour: a full circle is connected, a half one away, a ring empty, a square a program.
 export function PresenceMark({ seat }: { seat: SeatRow }): JSX.Element {
-  const state = seat.kind === 'simulated' ? 'simulated' : seat.presence;
+  const state = seat.kind === 'simulated' ? 'simulated' : isOver(seat) ? 'left' : seat.presence;
   return (
-    <svg class={`presence ${state}`} width="11" height="11" viewBox="-6 -6 12 12" role="img" aria-label={seat.kind === 'simulated' ? 'simulated' : state === 'left' && isFinished(seat) ? 'finished' : kPresence[seat.presence]}>
+    <svg class={`presence ${state}`} width="11" height="11" viewBox="-6 -6 12 12" role="img" aria-label={state === 'simulated' ? 'simulated' : state === 'left' ? statusText(seat) : kPresence[seat.presence]}>
       {state === 'simulated' && <rect x={-4} y={-4} width={8} height={8} />}
       {state === 'here' && <circle r={4.5} />}
       {state === 'away' && <circle class="ring" r={4} />}
       {state === 'away' && <path d="M0 -4A4 4 0 0 1 0 4Z" />}
       {state === 'empty' && <circle class="ring" r={4} />}
-      {state === 'left' && <path class="ring" d={isFinished(seat) ? 'M-4 .5-1 3.5 4.5 -3.5' : 'M-4 -4 4 4M4 -4-4 4'} />}
+      {state === 'left' && <path class="ring" d={kMarks[statusOf(seat)] ?? 'M-4 -4 4 4M4 -4-4 4'} />}
     </svg>
   );
 }

@@ -4,7 +4,7 @@ import { duration } from '../../shared/duration';
 import { minutesText, useNow } from '../clock';
 import type { Answer, Forecast, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
-import { counted, seatTitle } from '../words';
+import { counted, isOver, seatTitle } from '../words';
 
 const kSlowest = 45_000; // ms; nobody is stuck before
 const kTimes = 3; // so many times as long as the group usually takes for an answer
@@ -18,6 +18,7 @@ function usualMs(answers: Answer[]): number {
 // Why somebody may need help, or nothing.
 function trouble(seat: SeatRow, answers: Answer[], now: number): string | null {
   if (seat.kind !== 'person' || seat.presence !== 'here' || seat.dropped) return null;
+  if (seat.needs_help) return seat.needs_help;
   const limit = Math.max(kSlowest, kTimes * usualMs(answers));
   const since = now - (seat.stage_since_ms ?? now);
   if ((seat.stage === 'predict' || seat.stage === 'watch') && since > limit) {
@@ -36,7 +37,7 @@ function forecastText({ minutes_low, minutes_high, periods, done_within }: Forec
 export function Now({ room, detail, study }: { room: RoomRow; detail: RoomDetail; study: StudyInfo }): JSX.Element | null {
   const now = useNow();
   if (room.stage === 'ended' || room.stage === 'lobby') return null;
-  const away = room.seats.filter(({ presence }) => presence === 'away');
+  const away = room.seats.filter((seat) => seat.presence === 'away' && !isOver(seat));
   const stuck = room.seats.flatMap((seat) => {
     const why = trouble(seat, detail.answers, now);
     return why ? [`${seatTitle(seat)}: ${why}`] : [];

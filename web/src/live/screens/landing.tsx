@@ -117,7 +117,7 @@ function WhoAreYou({ onReturn, onAnother }: { onReturn: (token: string) => void;
     <>
       <Heading>{t('landing.again.title')}</Heading>
       <p class="lead">{t('landing.again.text')}</p>
-      <div class="choices">
+      <div class="buttons">
         {before.map(({ token, at }) => (
           <button type="button" class="primary" key={token} onClick={() => onReturn(token)}>
             {before.length === 1 ? t('landing.again.continue') : t('landing.again.continue_at', { time: clockTime(at) })}
