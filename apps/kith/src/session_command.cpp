@@ -26,13 +26,15 @@ namespace kith::cli {
 namespace {
 
 struct SessionOptions {
-  std::string action;  ///< "list", "show" ...
-  std::string folder;  ///< With import: the log.
-  std::string room;    ///< Id or code; empty: all rooms.
-  std::string out;     ///< Folder for tables or for the recovered session.
-  bool names = false;  ///< Export what identifies people, too.
-  bool text = false;   ///< Export what people wrote in their own words, too.
-  bool yes = false;    ///< Replace an existing export; erase for good.
+  std::string action;    ///< "list", "show" ...
+  std::string folder;    ///< With import: the log.
+  std::string room;      ///< Id or code; empty: all rooms.
+  std::size_t seat = 0;  ///< With redact: of the person; 0: everybody.
+  bool dry_run = false;  ///< Change nothing.
+  std::string out;       ///< Folder for tables or for the recovered session.
+  bool names = false;    ///< Export what identifies people, too.
+  bool text = false;     ///< Export what people wrote in their own words, too.
+  bool yes = false;      ///< Replace an existing export; erase for good.
 };
 
 namespace fs = std::filesystem;
@@ -166,12 +168,33 @@ int replay_rooms(const SessionOptions& options, Console& console) {
   return 0;
 }
 
+int withdraw_person(const SessionOptions& options, Console& console) {
+  if (options.room.empty()) refuse("kith session redact --seat needs --room ROOM, the room of the seat");
+  if (!options.yes && !options.dry_run) {
+    refuse("kith session redact erases this person for good",
+           "see with --dry-run what goes and export what you need, then add --yes");
+  }
+  TextTable table{"lr"};
+  table.add({"events", "changed"});
+  for (const auto& [type, count] : withdraw(options.folder, options.room, options.seat, now_us(), options.dry_run)) {
+    table.add({type, std::to_string(count)});
+  }
+  console.print(table.text(console));
+  console.print(
+      options.dry_run
+          ? "nothing was changed. Names, answers, paths, times, query parameters and links of this person go\n"
+          : "erased; exports and audits leave this person out. Backups and earlier exports still hold it\n");
+  return 0;
+}
+
 int erase_persons(const SessionOptions& options, Console& console) {
+  if (options.seat != 0) return withdraw_person(options, console);
   if (!options.yes) {
     refuse("kith session redact erases names, free text and query parameters for good",
            "export what you need first, then add --yes");
   }
   const auto room = options.room.empty() ? std::nullopt : std::optional{options.room};
+  if (options.dry_run) refuse("kith session redact --dry-run needs --room and --seat", "add the seat of the person");
   const auto changed = redact(options.folder, room, now_us());
   console.print(fmt::format("erased what identifies people in {}; backups and exports still hold it\n",
                             counted(changed, "event")));
@@ -204,9 +227,11 @@ void declare(OptionList& list, SessionOptions& options) {
   list.text("folder", options.folder, "DIR", "Folder that kith serve was given; with import: a log of a lesson file")
       .required();
   list.text("--room", options.room, "ID", "Only this room, by id or code");
+  list.integer("--seat", options.seat, {1}, "With redact and --room: withdraw the person in this seat");
   list.text("-o,--out", options.out, "DIR", "Folder for tables, the recovered session or the imported one");
   list.flag("--names", options.names, "Export names, query parameters and completion codes, too");
   list.flag("--text", options.text, "Export what people wrote in their own words, too");
+  list.flag("--dry-run", options.dry_run, "With redact --seat: only say what would be erased");
   list.flag("--yes", options.yes, "Replace an existing export; with redact: erase for good");
 }
 
@@ -226,7 +251,8 @@ void add_session(Commands& commands) {
   commands.add<SessionOptions>(
       "session", "List, export, replay, redact, recover or import live sessions",
       {"kith session list results/live", "kith session export results/live -o tables",
-       "kith session replay results/live --room r3", "kith session import answers.json -o results/lesson"},
+       "kith session replay results/live --room r3", "kith session redact results/live --room r3 --seat 2 --dry-run",
+       "kith session import answers.json -o results/lesson"},
       declare, run);
 }
 

@@ -102,6 +102,11 @@ TEST_F(SessionCommand, ReplaysAndSaysWhatDiffers) {
 TEST_F(SessionCommand, ErasesOnlyWhenTold) {
   EXPECT_EQ(run_kith({"session", "redact", folder()}).code, 2);
   EXPECT_EQ(run_kith({"session", "redact", folder(), "--yes"}).code, 0);
+  EXPECT_EQ(run_kith({"session", "redact", folder(), "--seat", "1", "--yes"}).code, 2) << "of which room?";
+  EXPECT_EQ(run_kith({"session", "redact", folder(), "--room", "r1", "--seat", "1"}).code, 2);
+  EXPECT_EQ(run_kith({"session", "redact", folder(), "--dry-run"}).code, 2);
+  EXPECT_THAT(run_kith({"session", "redact", folder(), "--room", "r1", "--seat", "9", "--yes"}).err,
+              HasSubstr("E1624"));
   const auto lock = FolderLock::try_acquire(folder());
   const auto busy = run_kith({"session", "redact", folder(), "--yes"});
   EXPECT_EQ(busy.code, 8);

@@ -74,16 +74,35 @@ std::optional<RoomCommand> command_of(const RoomEvent& event) {
   return command;
 }
 
-// Texts may have been erased since; only whether they are possible is checked.
+// Whether what is left of a deed of somebody who was withdrawn fits where it was.
+bool is_erased_deed(const RoomParts& room, const LiveSeat& person, const RoomEvent& event) {
+  if (const auto* answer = event.get<happening::Answered>()) {
+    return !answer->erased.is_null() && room.state.phase == RoomPhase::kTesting && person.in_period &&
+           !person.has_answered && answer->test == current_test(person);
+  }
+  if (const auto* screened = event.get<happening::Screened>()) {
+    return screened->actions.empty() && person.readiness == Readiness::kScreening &&
+           screened->test == person.screened.size();
+  }
+  if (const auto* draft = event.get<happening::Drafted>()) {
+    return draft->actions.empty() && room.state.phase == RoomPhase::kTesting && person.in_period;
+  }
+  const auto* asked = event.get<happening::Explored>();
+  return asked != nullptr && asked->start.is_null();
+}
+
+// Texts and deeds may have been erased since; only whether they are possible is checked.
 bool fits_without_text(const RoomParts& room, const RoomEvent& event) {
   const auto is_seat = [&](std::size_t seat) { return seat >= 1 && seat <= room.state.seats.size(); };
   if (const auto* message = event.get<happening::MessageSent>()) {
     return event.actor == "facilitator" && (!message->seat || is_seat(*message->seat));
   }
   const auto seat = seat_of_actor(event.actor);
-  if (!event.kind().is_free_text || !seat || !is_seat(*seat)) return false;
+  if (!seat || !is_seat(*seat)) return false;
   const auto& person = room.state.seats[*seat - 1];
   if (!person.is_person || person.status == SeatStatus::kEmpty || person.status == SeatStatus::kGone) return false;
+  if (is_erased_deed(room, person, event)) return true;
+  if (!event.kind().is_free_text) return false;
   if (event.get<happening::Named>() != nullptr) return true;
   return room.state.phase == RoomPhase::kQuestions && !person.has_answered_questions;
 }

@@ -136,11 +136,20 @@ class RoomChange {
   void happen(const Answered& e) {
     auto& person = who();
     const auto demo = state_.session->lesson().tests.at(e.test).demo;
-    auto judged = judged_path(*study_.atlas, demo, e.actions, e.for_ever);
+    auto judged = e.erased.is_null() ? judged_path(*study_.atlas, demo, e.actions, e.for_ever) : what_is_left(e.erased);
     person.paths.at(e.test) = GivenPath{e.actions, e.for_ever, judged.is_finished, judged.counts, e.ms};
     person.draft.clear();
     person.since_us = event_.at_us;
     if (current_test(person) == person.paths.size()) step_.give_answers(actor());
+  }
+  static JudgedPath what_is_left(const Json& erased) {
+    JudgedPath judged;
+    judged.is_finished = erased.at("finished").get<bool>();
+    if (const auto& counts = erased.at("counts"); !counts.is_null()) {
+      auto& vector = judged.counts.emplace(counts.size());
+      for (std::size_t k = 0; k < counts.size(); ++k) vector[k] = counts[k].get<std::int64_t>();
+    }
+    return judged;
   }
   void happen(const Discussed& e) {
     who().choices.at(e.test) = BoardChoice{e.choice};
@@ -152,6 +161,7 @@ class RoomChange {
   }
   void happen(const Explored& e) {
     auto& person = who();
+    if (e.start.is_null()) return;
     auto found = explored(study_, AskedWorld{e.world, e.map, e.start});
     for (auto& half_space : found.conveyed) {
       if (std::ranges::find(person.explored, half_space) == person.explored.end()) {

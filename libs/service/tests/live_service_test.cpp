@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "faulty_disk.hpp"
+#include "kith/store/session_audit.hpp"
 #include "kith/store/session_review.hpp"
+#include "kith/table/csv_reader.hpp"
 #include "service_group.hpp"
 
 namespace kith {
@@ -76,6 +78,76 @@ TEST(LiveService, TeachesThreePeopleFromTheirLinksToTheirCodes) {
   }
   const auto restored = restore_session_study(blank.identity().inputs);
   EXPECT_EQ(restored.digest, stage.study().digest);
+}
+
+// Rows of a table whose text is given, by column.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
+  std::vector<std::map<std::string, std::string>> rows;
+  const auto columns = read_csv_header(text, "table");
+  const auto faults = read_csv(text, "table", columns, [&](const CsvRow& row) {
+    auto& values = rows.emplace_back();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto* cell = std::get_if<std::string>(&row.cells[c]);
+      values[columns[c].name] = cell == nullptr ? "" : *cell;
+    }
+  });
+  EXPECT_TRUE(faults.empty());
+  return rows;
+}
+
+TEST(LiveService, WithdrawsOnePersonAndKeepsTheOthers) {
+  Group group{kQuestions};
+  auto& [scratch, stage, solver, people] = group;
+  ASSERT_TRUE(play(stage, people, solver));
+  stage.stop();
+  const auto before = exported(stage, {.room = {}, .with_names = true, .with_text = true});
+  const auto now = stage.clock().now_us();
+  ASSERT_TRUE(is_stored(stage, "pid-b"));
+
+  const auto trial = withdraw(stage.folder(), "r1", 2, now, true);
+  EXPECT_GT(trial.at("answered"), 0u);
+  EXPECT_TRUE(is_stored(stage, "pid-b")) << "a trial changes nothing";
+  EXPECT_THROW((void)withdraw(stage.folder(), "r1", 9, now), Error);
+  EXPECT_EQ(withdraw(stage.folder(), "r1", 2, now), trial);
+  EXPECT_FALSE(is_stored(stage, "pid-b"));
+  EXPECT_TRUE(is_stored(stage, "pid-a"));
+
+  // The room replays, and what is left of the person says nothing of paths and times.
+  auto file = stored(stage);
+  file.verify();
+  TeachingCache cache{stage.study().study->atlas};
+  EXPECT_EQ(replay_room(file, file.rooms()[0], stage.study().study, cache).problem, "");
+  file.for_each_event([&](const StoredEvent& event) {
+    const auto body = body_of(event);
+    if (event.actor != seat_actor(2)) return;
+    EXPECT_TRUE(body.value("actions", Json::array()).empty()) << event.json;
+    EXPECT_TRUE(body.value("keys", Json::array()).empty()) << event.json;
+    EXPECT_EQ(body.value("ms", 0), 0) << event.json;
+  });
+
+  // Tables have the same rows as before, without this person's.
+  const auto after = exported(stage, {.room = {}, .with_names = true, .with_text = true});
+  for (const auto& name : {"participants.csv", "tests.csv", "keypresses.csv", "questions.csv", "trials.csv"}) {
+    std::vector<std::map<std::string, std::string>> left;
+    for (auto& row : rows_of(before.at(name))) {
+      if (row[name == std::string{"trials.csv"} ? "user_id" : "seat"] != "2") left.push_back(row);
+    }
+    EXPECT_EQ(rows_of(after.at(name)), left) << name;
+  }
+  for (auto& row : rows_of(after.at("beliefs.csv"))) EXPECT_NE(row["member"], "2");
+  for (auto& row : rows_of(after.at("events.csv"))) EXPECT_NE(row["actor"], "seat:2");
+  EXPECT_EQ(rows_of(after.at("sessions.csv")).at(0)["withdrawn"], "1");
+  EXPECT_EQ(rows_of(before.at("sessions.csv")).at(0)["withdrawn"], "0");
+  const auto audit = audit_session(stored(stage), SessionAuditOptions{});
+  EXPECT_EQ(audit.report.people.size(), 2u);
+
+  // Nobody sits there any more.
+  stage.start();
+  stage.service().settle();
+  people[1]->connect(stage.service());
+  stage.service().settle();
+  people[1]->read();
+  EXPECT_FALSE(people[1]->is_connected());
 }
 
 TEST(LiveService, GoesOnAfterARestartInTheMiddleOfAPeriod) {

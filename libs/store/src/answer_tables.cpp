@@ -76,6 +76,7 @@ struct AnswerTables : RoomExport {
 
   void write_questions() const {
     for (const auto& [seat, person] : history.seats) {
+      if (history.withdrawn.count(seat) != 0) continue;
       for (const auto& question : study.group().questions) {
         const auto answer = person.answers.find(question.id);
         if (answer == person.answers.end() || answer->is_null()) continue;
@@ -94,7 +95,7 @@ struct AnswerTables : RoomExport {
       for (std::size_t member = 1; member <= period.feedback.verdicts.size(); ++member) {
         const auto& verdicts = period.feedback.verdicts[member - 1];
         const auto* person = history.person_in(period.lesson.period, member);
-        if (person == nullptr || !person->is_person) continue;
+        if (person == nullptr || !person->is_person || history.withdrawn.count(person->seat) != 0) continue;
         const auto seat = person->seat;
         const auto& lesson = period.lesson;
         for (const auto& shown : lesson.demonstrations)
@@ -113,6 +114,7 @@ struct AnswerTables : RoomExport {
       for (std::size_t m = 0; m < past.revised.size(); ++m) {
         const auto* person = history.person_in(past.lesson.period, m + 1);
         const auto seat = person == nullptr || !person->is_person ? 0 : person->seat;
+        if (history.withdrawn.count(seat) != 0) continue;
         for (std::size_t t = 0; t < feedback.verdicts[m].size(); ++t) {
           const bool changed = !past.revised[m].empty() && past.revised[m][t] != past.answers[m][t];
           write.add(tables.discussions, {.session = id(),
@@ -171,6 +173,7 @@ std::vector<ExportedAnswer> RoomExport::given_answers() const {
       }
     }
   }
+  std::erase_if(rows, [&](const auto& row) { return history.withdrawn.count(row.seat) != 0; });
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
   return rows;
 }

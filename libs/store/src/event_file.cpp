@@ -264,11 +264,11 @@ void EventFile::write(std::span<const StoreBatch> batches) {
 void EventFile::rewrite(std::span<const StoredEvent> events) {
   auto& database = state_->database;
   database.transaction([&] {
-    auto update = database.prepare("UPDATE event SET json = ?, checksum = ? WHERE room = ? AND seq = ?");
+    auto update = database.prepare("UPDATE event SET json = ?, checksum = ?, at_us = ? WHERE room = ? AND seq = ?");
     for (const auto& event : events) {
       const auto checksum = seal(event, state_->key);
-      update.bind_text(1, event.json).bind_blob(2, checksum).bind(3, event.room);
-      update.bind(4, static_cast<std::int64_t>(event.seq)).run();
+      update.bind_text(1, event.json).bind_blob(2, checksum).bind(3, event.at_us).bind(4, event.room);
+      update.bind(5, static_cast<std::int64_t>(event.seq)).run();
     }
   });
   database.execute("VACUUM");

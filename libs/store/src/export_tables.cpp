@@ -24,6 +24,8 @@ void declare(TableOf<SessionRow>& table) {
       .column(&R::replicate, {kReplicate, "Number of the room among those of the same strategy and composition."})
       .column(&R::size, count("size", "Members of the group."))
       .column(&R::people, count(kPeople, "Members who were people, not stand-ins."))
+      .column(&R::withdrawn,
+              count("withdrawn", "People whose data were erased at their wish: no table has rows or figures of them."))
       .column(&R::created_ms, {"created_ms", "When the room was made.", kMilliseconds})
       .column(&R::started_ms, {kStartedMs, "When teaching began; missing if it never did.", kMilliseconds})
       .column(&R::last_ms, {"last_ms", "When anything happened last; missing if nothing did.", kMilliseconds})

@@ -17,7 +17,7 @@ inline constexpr const char* kAboutFile = "study.json";
 
 struct SessionRow {
   std::string session, strategy, composition;
-  std::size_t replicate, size, people;
+  std::size_t replicate, size, people, withdrawn;
   std::int64_t created_ms;
   std::optional<std::int64_t> started_ms{}, last_ms{};
   std::string stage;

@@ -224,6 +224,9 @@ RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::s
   }
   history.people = collector.people();
   file.for_each_event([&](const StoredEvent& event) { history.events.push_back(event); }, stored.number);
+  for (const auto& [room, seat] : withdrawn_seats(file)) {
+    if (room == stored.number) history.withdrawn.insert(seat);
+  }
   const auto last = history.events.empty() ? 0 : history.events.back().at_us;
   for (auto& [seat, row] : history.seats) {
     if (row.away_since_us != 0) row.away_us += last - row.away_since_us;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,7 @@ struct RoomHistory {
   std::vector<StoredEvent> events;
   std::int64_t started_us = 0;
   std::string ended;
+  std::set<std::size_t> withdrawn;  // seats of people whose data were erased
 
   // The lesson that was taught in a period; null if there is none.
   [[nodiscard]] const LessonRow* lesson_of(std::size_t period) const;
@@ -69,6 +71,11 @@ struct RoomHistory {
   [[nodiscard]] std::string stage_of(std::size_t seat) const;
   // The letter of a member's type; none without a member.
   [[nodiscard]] std::optional<std::string> type_of(std::optional<std::size_t> member) const;
+  // Whether a member's place was that of somebody who was withdrawn, in a period.
+  [[nodiscard]] bool is_withdrawn(std::size_t period, std::size_t member) const {
+    const auto* person = person_in(period, member);
+    return withdrawn.count(person == nullptr ? seat_of(member) : person->seat) != 0;
+  }
   // Whether another lesson was taught in place of the one that the answer belongs to.
   [[nodiscard]] bool is_void(const AnswerRow& answer) const { return lessons[answer.lesson].is_replaced; }
   // The verdict on an answer, if the period was finished and the member took part.

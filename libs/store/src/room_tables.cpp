@@ -14,13 +14,16 @@ struct RoomTables : RoomExport {
     const bool is_waiting_list = setup().is_waiting_list;
     if (!is_waiting_list) write_session();
     for (const auto& [seat, row] : history.seats) {
+      if (history.withdrawn.count(seat) != 0) continue;
       if (!is_waiting_list || history.stage_of(seat) != "moved") write_participant(seat, row);
     }
     for (const auto& lesson : history.lessons) {
       if (!lesson.is_replaced) write_period(lesson);
     }
     write_beliefs();
-    for (const auto& event : history.events) write_event(event);
+    for (const auto& event : history.events) {
+      if (history.withdrawn.count(seat_of_actor(event.actor).value_or(0)) == 0) write_event(event);
+    }
   }
 
   [[nodiscard]] std::optional<double> belief_in(std::size_t member) const {
@@ -57,6 +60,7 @@ struct RoomTables : RoomExport {
                .replicate = setup().replicate,
                .size = size,
                .people = size - static_cast<std::size_t>(simulated),
+               .withdrawn = history.withdrawn.size(),
                .created_ms = ms_of(history.stored.created_us),
                .started_ms = ms_if_any(history.started_us),
                .last_ms = ms_if_any(events.empty() ? 0 : events.back().at_us),
@@ -149,6 +153,7 @@ struct RoomTables : RoomExport {
         BeliefRow row{
             .session = id(), .period = point["period"].get<std::size_t>(), .belief = name, .p_bec = mass.get<double>()};
         if (name.compare(0, kMember.size(), kMember) == 0) row.member = std::stoul(name.substr(kMember.size()));
+        if (row.member && history.is_withdrawn(row.period, *row.member)) continue;
         write.add(tables.beliefs, row);
       }
     }

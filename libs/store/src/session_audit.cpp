@@ -1,5 +1,6 @@
 #include "kith/store/session_audit.hpp"
 
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -50,11 +51,13 @@ SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
   report.options = audit_options(teaching, options.forgetting);
 
   TeachingCache cache{result.study->atlas};
+  const auto withdrawn = withdrawn_seats(file);
   const auto rooms = options.room.empty() ? file.rooms() : std::vector{find_room(file, options.room)};
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     if (options.on_progress) options.on_progress(i, rooms.size());
     auto room = taught_in(file, rooms[i], result.study, cache);
     for (auto& person : audit_room(cache, *result.study, room.setup, std::move(room.people), options.forgetting)) {
+      if (withdrawn.count({rooms[i].number, person.seat}) != 0) continue;
       report.people.push_back(std::move(person));
     }
   }

@@ -1,5 +1,7 @@
 #include "kith/store/session_export.hpp"
 
+#include <algorithm>
+
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/present/json.hpp"
@@ -52,11 +54,17 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
     is_there = true;
     rooms += room_setup(Json::parse(stored.setup)).is_waiting_list ? 0u : 1u;
     const auto history = read_history(file, stored, study, cache);
-    const auto audits = audit_room(cache, *study, history.room->setup(), history.people);
+    auto audits = audit_room(cache, *study, history.room->setup(), history.people);
+    std::erase_if(audits, [&](const auto& one) { return history.withdrawn.count(one.seat) != 0; });
     const RoomExport room{*study, told, tables, write, history, audits};
     write_room(room);
     write_answers(room);
-    events += file.count_events(stored.number);
+    const auto is_left = [&](const StoredEvent& event) {
+      return history.withdrawn.count(seat_of_actor(event.actor).value_or(0)) == 0;
+    };
+    events += history.withdrawn.empty()
+                  ? file.count_events(stored.number)
+                  : static_cast<std::size_t>(std::count_if(history.events.begin(), history.events.end(), is_left));
   }
   if (!is_there) {
     refuse_run(ErrorKind::kInvalidInput, "E1618", file.path(), "there is no such room in this session",

@@ -4,11 +4,13 @@
 #include <array>
 #include <exception>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "kith/core/error.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/live/world_json.hpp"
 #include "kith/store/session_study.hpp"
 
 namespace kith {
@@ -85,7 +87,88 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   return has_any;
 }
 
+// What is left of an event of somebody who is withdrawn. A path that the group saw in a discussion stays: what the
+// others took over is one of these.
+void erase_deed(const std::string& type, Json& body, const RoomEvent& event, const LiveStudy& study, const Room& room) {
+  const auto is = [&](const RoomEventKind& kind) { return type == kind.word; };
+  const auto* answer = event.get<happening::Answered>();
+  const bool was_seen = answer != nullptr && study.group().discussion.choice.is_held();
+  if (answer != nullptr && !was_seen && answer->erased.is_null()) {
+    const auto demo = room.session().lesson().tests.at(answer->test).demo;
+    const auto judged = judged_path(*study.atlas, demo, answer->actions, answer->for_ever);
+    body["erased"] = {{"finished", judged.is_finished}, {"counts", judged.counts ? to_json(*judged.counts) : Json{}}};
+  }
+  if (body.contains("actions") && !was_seen) body["actions"] = Json::array();
+  if (body.contains("keys")) body["keys"] = Json::array();
+  if (body.contains("ms")) body["ms"] = 0;
+  if (is(happening::QuestionsAnswered::kKind)) body["answers"] = Json::object();
+  if (is(happening::Explored::kKind)) body = {{"start", Json{}}, {"map", Json::array()}};
+}
+
+// The person's events in one room, as they are to be. The times are those of what happened before.
+std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& stored, std::size_t seat,
+                                        const std::shared_ptr<const LiveStudy>& study) {
+  TeachingCache cache{study->atlas};
+  Room room{study, setup_of(stored), cache};
+  std::vector<StoredEvent> changed;
+  std::int64_t before_us = stored.created_us;
+  file.for_each_event(
+      [&](const StoredEvent& event) {
+        auto body = body_of(event);
+        const auto typed = room_event_of(event);
+        const bool is_own = event.actor == seat_actor(seat);
+        const bool is_about = is_own || body.value("seat", Json{}) == Json(seat);
+        if (is_about) {
+          erase_person(event.type, body, std::nullopt);
+          if (body.contains("reason") && event.actor == "facilitator") body["reason"] = kErased;
+          if (is_own) erase_deed(event.type, body, typed, *study, room);
+          auto now = event;
+          now.json = body.dump();
+          if (is_own) now.at_us = before_us;
+          if (now != event) changed.push_back(std::move(now));
+        }
+        if (!is_own) before_us = event.at_us;
+        room.apply(typed, cache);
+      },
+      stored.number);
+  return changed;
+}
+
+// The seat, and the one on the waiting list that the person had before.
+std::vector<StoredSeat> seats_of_person(EventFile& file, std::int64_t room, std::size_t seat) {
+  std::vector<StoredSeat> seats;
+  file.for_each_event(
+      [&](const StoredEvent& event) {
+        const bool is_seated = event.type == happening::Seated::kKind.word;
+        if (!is_seated && event.type != happening::Joined::kKind.word) return;
+        const auto body = body_of(event);
+        if (body.value("seat", Json{}) != Json(seat)) return;
+        seats.assign(1, {room, seat});
+        if (!is_seated) return;
+        const auto& from = body.at("from");
+        for (const auto& stored : file.rooms()) {
+          if (Json(setup_of(stored).id) == from.at("room"))
+            seats.emplace_back(stored.number, from.at("seat").get<std::size_t>());
+        }
+      },
+      room);
+  return seats;
+}
+
 }  // namespace
+
+std::set<StoredSeat> withdrawn_seats(EventFile& file) {
+  std::set<StoredSeat> seats;
+  file.for_each_event(
+      [&](const StoredEvent& event) {
+        if (event.type != "redacted") return;
+        for (const auto& one : body_of(event).value("withdrawn", Json::array())) {
+          seats.emplace(one.at(0).get<std::int64_t>(), one.at(1).get<std::size_t>());
+        }
+      },
+      0);
+  return seats;
+}
 
 Json body_of(const StoredEvent& event) {
   return json_of(event.json, "event " + std::to_string(event.seq) + " of room " + std::to_string(event.room));
@@ -177,38 +260,95 @@ ReplayedRoom replay_room(EventFile& file, const StoredRoom& stored, const std::s
   return replayed;
 }
 
-std::size_t redact(const fs::path& folder, std::optional<std::string> room, std::int64_t now_us) {
+namespace {
+
+// A session that is about to be changed.
+struct OpenSession {
+  std::optional<FolderLock> lock;
+  EventFile file;
+  std::uint64_t service_seq = 0;  // of the last event outside of rooms
+
+  void finish(Json body, StoreBatch log, std::span<const StoredEvent> changed, std::int64_t now_us) {
+    log.events.push_back({.room = 0,
+                          .seq = service_seq + 1,
+                          .at_us = now_us,
+                          .actor = "admin",
+                          .type = "redacted",
+                          .json = body.dump()});
+    file.write({&log, 1});
+    file.rewrite(changed);
+  }
+};
+
+OpenSession opened(const fs::path& folder, std::int64_t now_us) {
   static_cast<void>(EventFile::read(folder));  // refuses folders without a session
-  const auto lock = FolderLock::try_acquire(folder);
+  auto lock = FolderLock::try_acquire(folder);
   if (!lock) {
     refuse_run(ErrorKind::kBusy, "E1610", folder, "another process serves the sessions in this folder",
                "stop it before erasing anything");
   }
   const auto identity = EventFile::read(folder).identity();
-  auto file = EventFile::open(folder, identity, now_us);
+  OpenSession session{std::move(lock), EventFile::open(folder, identity, now_us)};
+  session.file.for_each_event([&](const StoredEvent& event) { session.service_seq = event.seq; }, 0);
+  return session;
+}
+
+}  // namespace
+
+std::size_t redact(const fs::path& folder, std::optional<std::string> room, std::int64_t now_us) {
+  auto session = opened(folder, now_us);
   std::optional<std::int64_t> number;
-  if (room) number = find_room(file, *room).number;
-  const auto questions = text_questions(identity);
+  if (room) number = find_room(session.file, *room).number;
+  const auto questions = text_questions(session.file.identity());
   std::vector<StoredEvent> changed;
-  std::uint64_t service_seq = 0;
-  file.for_each_event([&](const StoredEvent& event) {
-    if (event.room == 0) service_seq = event.seq;
+  session.file.for_each_event([&](const StoredEvent& event) {
     if (number && event.room != *number) return;
     auto body = body_of(event);
     if (!erase_person(event.type, body, questions)) return;
     changed.push_back(event);
     changed.back().json = body.dump();
   });
-  StoreBatch log;
-  log.events.push_back({.room = 0,
-                        .seq = service_seq + 1,
-                        .at_us = now_us,
-                        .actor = "admin",
-                        .type = "redacted",
-                        .json = Json{{"room", room ? Json{*room} : Json{}}, {"events", changed.size()}}.dump()});
-  file.write({&log, 1});
-  file.rewrite(changed);
+  session.finish({{"room", room ? Json{*room} : Json{}}, {"events", changed.size()}}, {}, changed, now_us);
   return changed.size();
+}
+
+std::map<std::string, std::size_t> withdraw(const fs::path& folder, const std::string& room, std::size_t seat,
+                                            std::int64_t now_us, bool is_trial) {
+  auto session = opened(folder, now_us);
+  auto& file = session.file;
+  const auto stored = find_room(file, room);
+  const auto seats = seats_of_person(file, stored.number, seat);
+  if (seats.empty()) {
+    refuse_run(ErrorKind::kInvalidInput, "E1624", folder,
+               "nobody has had seat " + std::to_string(seat) + " of room '" + room + "'",
+               "'kith session export' writes participants.csv, with the seats");
+  }
+
+  const auto study = restore_session_study(file.identity().inputs).study;
+  std::vector<StoredEvent> changed;
+  std::map<std::string, std::size_t> counts;
+  Json places = Json::array();
+  StoreBatch log;
+  for (const auto& one : file.rooms()) {
+    for (const auto& [number, whose] : seats) {
+      if (number != one.number) continue;
+      places.push_back({number, whose});
+      for (auto& event : without_person(file, one, whose, study)) {
+        ++counts[event.type];
+        changed.push_back(std::move(event));
+      }
+    }
+  }
+  for (const auto& token : file.tokens()) {
+    const StoredSeat place{token.room, static_cast<std::size_t>(token.seat)};
+    const bool is_theirs = !token.revoked && std::find(seats.begin(), seats.end(), place) != seats.end();
+    if (is_theirs) log.revoked.push_back(token.hash);
+  }
+  if (!is_trial) {
+    session.finish({{"room", room}, {"seat", seat}, {"events", changed.size()}, {"withdrawn", places}}, std::move(log),
+                   changed, now_us);
+  }
+  return counts;
 }
 
 }  // namespace kith

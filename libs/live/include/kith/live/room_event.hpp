@@ -137,7 +137,8 @@ struct Drafted {
   static constexpr std::tuple kMembers{"test", &Drafted::test, "actions", &Drafted::actions};
 };
 
-/// An answer to a test, with what was pressed and when; it may never end.
+/// An answer to a test, with what was pressed and when; it may never end. `erased`, of somebody who was withdrawn, is
+/// what is left of the path: {finished, counts}, what the lessons after it rest on.
 struct Answered {
   static constexpr RoomEventKind kKind{"answered", "answer", kSeat};
   std::size_t test = 0;
@@ -145,9 +146,10 @@ struct Answered {
   Json keys;
   std::int64_t ms = 0;
   bool for_ever = false;
-  static constexpr std::tuple kMembers{"test",      &Answered::test,    "actions", &Answered::actions,
-                                       "keys",      &Answered::keys,    "ms",      &Answered::ms,
-                                       "for_ever?", &Answered::for_ever};
+  Json erased{};
+  static constexpr std::tuple kMembers{"test",      &Answered::test,     "actions", &Answered::actions,
+                                       "keys",      &Answered::keys,     "ms",      &Answered::ms,
+                                       "for_ever?", &Answered::for_ever, "erased?", &Answered::erased};
 };
 
 /// Somebody has seen the answers of the group to a test and keeps the own one, or takes one of the board.
@@ -166,7 +168,7 @@ struct Continued {
 };
 
 /// Somebody asked where the robot would go from `start` (a frame as pages have it): in a world of the domain, or on a
-/// map that they changed.
+/// map that they changed. Null: what somebody asked who was withdrawn.
 struct Explored {
   static constexpr RoomEventKind kKind{"explored", "explore", kSeat, kUnlogged, false};
   Json start;

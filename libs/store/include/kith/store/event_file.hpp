@@ -111,8 +111,8 @@ class EventFile {
   /// Saves all of them or, if it throws, none. On return everything is on the disk.
   /// @throws kith::Error (kIo), after which the file must be opened again: reopen().
   void write(std::span<const StoreBatch> batches);
-  /// Replaces the texts of events of the same room and seq; everything else about them stays. Nothing of the old texts
-  /// remains in the file. @throws kith::Error
+  /// Replaces the texts and times of events of the same room and seq; everything else about them stays. Nothing of the
+  /// old texts remains in the file. @throws kith::Error
   void rewrite(std::span<const StoredEvent> events);
   /// Closes the connection and opens another. @throws kith::Error (kIo)
   void reopen();

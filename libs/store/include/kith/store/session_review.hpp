@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kith/live/room.hpp"
@@ -64,6 +67,23 @@ struct ReplayedRoom {
 /// of events that were changed.
 /// @throws kith::Error kBusy E1610 if the session is being served; kIo.
 std::size_t redact(const std::filesystem::path& folder, std::optional<std::string> room, std::int64_t now_us);
+
+/// A seat of a room, by number.
+using StoredSeat = std::pair<std::int64_t, std::size_t>;
+
+/// Withdraws one person: what they entered, said and did goes for good, with all times, and their links become void. Of
+/// answers only what the lessons of the others rest on is left, the counts of the path, so the room replays as before.
+/// Exports and audits leave the person out from then on, and say that somebody was withdrawn. Somebody who came from
+/// the waiting list is erased there, too.
+/// @param room  id or code.  @param seat  from 1.
+/// @param is_trial  nothing is changed.
+/// @return how many events of each type are changed.
+/// @throws kith::Error as redact(); kInvalidInput E1618 (no such room), E1624 (no such person)
+std::map<std::string, std::size_t> withdraw(const std::filesystem::path& folder, const std::string& room,
+                                            std::size_t seat, std::int64_t now_us, bool is_trial = false);
+
+/// Everybody who was withdrawn.
+[[nodiscard]] std::set<StoredSeat> withdrawn_seats(EventFile& file);
 
 /// What a salvage found.
 struct SalvageReport {
