@@ -364,7 +364,7 @@ int run(const ServeOptions& options, Console& console) {
     if (options.rehearse > 0) {
       console.info("rehearsing; Ctrl-C ends it early");
       rehearsed = rehearse(rehearsal_options(
-          options, session.study, server.port(), tokens.facilitator, [&server] { server.restart(); }, record));
+          options, session.study, server.port(), tokens, [&server] { server.restart(); }, record));
     } else {
       Links links;
       {

@@ -90,6 +90,7 @@ Json document_of(const RehearsalResult& result, const RehearsalRecord& record, c
       {"memory_mb",
        {{"second_quarter", or_null(median_in_quarter(record.memory_mb, 2))},
         {"last_quarter", or_null(median_in_quarter(record.memory_mb, 4))}}}};
+  document["problems"] = result.problems;
   for (const auto& [reason, count] : result.refusals) document["refusals"][reason] = count;
   for (const auto& [stage, count] : result.stages) document["stages"][stage] = count;
   return document;
@@ -130,11 +131,12 @@ std::string restart_text(const RehearsalRecord& record) {
 }  // namespace
 
 RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<const LiveStudy> study,
-                                   std::uint16_t port, std::string facilitator, std::function<void()> restart,
+                                   std::uint16_t port, LiveService::StartLinks links, std::function<void()> restart,
                                    RehearsalRecord& record) {
   RehearsalOptions rehearsal;
   rehearsal.port = port;
-  rehearsal.facilitator = std::move(facilitator);
+  rehearsal.facilitator = std::move(links.facilitator);
+  rehearsal.observer = std::move(links.observer);
   rehearsal.groups = options.rehearse;
   rehearsal.duration = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.for_seconds)};
   rehearsal.answer_every = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.answer_every)};
@@ -211,6 +213,7 @@ int report_rehearsal(const ServeOptions& options, const RehearsalResult& result,
                     "says",
                     unfinished, result.people));
   }
+  for (const auto& problem : result.problems) console.warning("whoever looked was told: " + problem);
   if (!is_restarted) {
     console.warning(
         fmt::format("the rehearsal was over after {:.1f} s, before --restart-after {:g}: no restart was "

@@ -11,6 +11,7 @@
 #include "console.hpp"
 #include "kith/live/live_study.hpp"
 #include "kith/server/rehearsal.hpp"
+#include "kith/service/live_service.hpp"
 #include "serve_options.hpp"
 
 namespace kith::cli {
@@ -26,7 +27,7 @@ struct RehearsalRecord {
 /// @param restart  stops the server and starts it again at the same port, after options.restart_after.
 /// @param record  is filled in while the rehearsal runs; outlives it.
 [[nodiscard]] RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<const LiveStudy> study,
-                                                 std::uint16_t port, std::string facilitator,
+                                                 std::uint16_t port, LiveService::StartLinks links,
                                                  std::function<void()> restart, RehearsalRecord& record);
 
 /// What became of the answers that were acknowledged.

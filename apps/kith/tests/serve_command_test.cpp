@@ -255,6 +255,7 @@ TEST(ServeCommand, RehearsesWithSimulatedPeople) {
   EXPECT_EQ(document.at("answers").at("stored_twice"), 0);
   EXPECT_EQ(document.at("finished"), document.at("people"));
   EXPECT_EQ(document.at("restarts"), 0);
+  EXPECT_THAT(document.at("problems"), SizeIs(0)) << "of those who look";
 }
 
 TEST(ServeCommand, LosesNothingWhenARehearsalRestartsItsServer) {

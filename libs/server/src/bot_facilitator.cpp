@@ -164,6 +164,21 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
   return rooms;
 }
 
+void BotFacilitator::look_at(const std::string& room) {
+  if (wait(std::chrono::milliseconds{0}, [this] { return shared_->is_welcome; })) say("room-select", {{"room", room}});
+}
+
+bool BotFacilitator::is_closed() const {
+  const std::lock_guard lock{shared_->mutex};
+  return shared_->is_closed;
+}
+
+std::vector<std::string> BotFacilitator::problems() const {
+  const std::lock_guard lock{shared_->mutex};
+  if (!shared_->view.is_object() || !shared_->view.contains("integrity")) return {};
+  return shared_->view["integrity"].value("problems", std::vector<std::string>{});
+}
+
 void BotFacilitator::end_rooms(const std::vector<Room>& rooms) {
   if (!wait(kPatience, [this] { return shared_->is_welcome; })) return;
   for (const auto& room : rooms) {

@@ -36,6 +36,12 @@ class BotFacilitator {
                                              std::set<std::string> earlier = {});
   /// Asks for the end of rooms, at a pace that the server allows, and waits for the replies.
   void end_rooms(const std::vector<Room>& rooms);
+  /// Opens the page of a room, once there is a connection.
+  void look_at(const std::string& room);
+  /// Whether the server or the network has ended the connection.
+  [[nodiscard]] bool is_closed() const;
+  /// What the last view says is wrong.
+  [[nodiscard]] std::vector<std::string> problems() const;
 
  private:
   struct Shared;

@@ -1,6 +1,7 @@
 #include "kith/server/rehearsal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/executor_work_guard.hpp>
 #include <optional>
 #include <set>
@@ -21,6 +22,7 @@ using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
 constexpr milliseconds kPollTime{100};
+constexpr std::size_t kPollsPerLook = 3;
 constexpr milliseconds kTimeToEnd{20'000};
 constexpr milliseconds kTimeToStop{5'000};
 
@@ -103,6 +105,20 @@ class Groups {
       facilitator_.reset();  // the server was restarted: once more, over a new connection
     }
   }
+  // Whoever looks goes from group to group; a page whose connection has ended is opened again.
+  void look() {
+    if (options_.observer.empty() || num_polls_++ % kPollsPerLook != 0) return;
+    const auto& room = groups_[num_looks_++ % groups_.size()].room.id;
+    for (std::size_t i = 0; i < watchers_.size(); ++i) {
+      auto& watcher = watchers_[i];
+      if (!watcher || watcher->is_closed()) {
+        watcher.emplace(io_, server_, i == 0 ? options_.facilitator : options_.observer);
+      }
+      watcher->look_at(room);
+      for (auto& problem : watcher->problems()) problems_.insert(std::move(problem));
+    }
+  }
+  [[nodiscard]] const std::set<std::string>& problems() const { return problems_; }
   void end() {
     std::vector<BotFacilitator::Room> rooms;
     for (const auto& group : groups_) {
@@ -144,6 +160,9 @@ class Groups {
   std::optional<BotFacilitator> facilitator_;
   std::vector<Group> groups_;
   std::vector<std::shared_ptr<Bot>> people_;
+  std::array<std::optional<BotFacilitator>, 2> watchers_;  // a facilitator and an observer
+  std::size_t num_polls_ = 0, num_looks_ = 0;
+  std::set<std::string> problems_;
 };
 
 }  // namespace
@@ -180,6 +199,7 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
     wait([&](milliseconds elapsed) {
       is_stopped = options.on_tick && !options.on_tick(elapsed);
       if (is_stopped) return false;
+      groups->look();
       if (!is_timed) return groups->num_unfinished() > 0;
       if (elapsed >= options.duration) return false;
       groups->replace_finished();
@@ -199,6 +219,7 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
   }
   auto result = result_of(groups->people());
   result.groups = groups->size();
+  result.problems = groups->problems();
   result.seconds = seconds;
   return result;
 }

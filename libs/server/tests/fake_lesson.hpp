@@ -39,14 +39,15 @@ class FakeLesson final : public LiveApplication {
       from.who = frame.value("token", "");
       from.socket->authenticated();
       say(from, {{"t", "welcome"}, {"role", "participant"}});
-      if (from.who != "facilitator") people_[from.who].connection = connection;
+      if (!is_staff(from.who)) people_[from.who].connection = connection;
       return show(from.who);
     }
-    if (from.who == "facilitator") {
+    if (is_staff(from.who)) {
+      if (type == "room-select") looked_at[from.who].insert(frame["body"].value("room", ""));
       if (type == "room-make") make_rooms(frame["body"]);
       if (type == "end") end_room(frame["body"].value("room", ""));
       say(from, {{"t", "ack"}, {"id", frame["id"]}});
-      return show("facilitator");
+      return show(from.who);
     }
     auto& person = people_.at(from.who);
     const auto id = frame.value("id", "");
@@ -93,7 +94,8 @@ class FakeLesson final : public LiveApplication {
   std::set<std::string> paths;
   std::set<std::string> seen;
   int worlds_fetched = 0;
-  int early_frames = 0;  ///< Before the hello of their connection.
+  std::map<std::string, std::set<std::string>> looked_at;  ///< Rooms, by who looked.
+  int early_frames = 0;                                    ///< Before the hello of their connection.
 
  private:
   using Json = nlohmann::json;
@@ -108,6 +110,7 @@ class FakeLesson final : public LiveApplication {
     ConnectionId connection = 0;
   };
 
+  static bool is_staff(const std::string& who) { return who == "facilitator" || who == "observer"; }
   static void say(const Connected& to, const Json& frame) {
     to.socket->send(std::make_shared<const std::string>(frame.dump()));
   }
@@ -154,7 +157,7 @@ class FakeLesson final : public LiveApplication {
     for (const auto& token : rooms_[room]) show(token);
   }
   void show(const std::string& who) {
-    if (who == "facilitator") {
+    if (is_staff(who)) {
       Json rooms = Json::array();
       for (const auto& [room, tokens] : rooms_) {
         Json seats = Json::array();
@@ -162,7 +165,8 @@ class FakeLesson final : public LiveApplication {
         rooms.push_back({{"id", room}, {"seats", seats}});
       }
       for (const auto& [id, connection] : connections_) {
-        if (connection.who == who) say(connection, {{"t", "view"}, {"view", {{"rooms", rooms}}}});
+        if (connection.who == who)
+          say(connection, {{"t", "view"}, {"view", {{"rooms", rooms}, {"integrity", {{"problems", {"a page"}}}}}}});
       }
       return;
     }

@@ -49,6 +49,18 @@ TEST(Rehearsal, TeachesEverybodyToTheEnd) {
   EXPECT_THAT(lesson.answers, UnorderedElementsAreArray(result.answers));
 }
 
+TEST(Rehearsal, HasAFacilitatorAndAnObserverWhoLookAtEveryGroup) {
+  FakeLesson lesson{3};
+  Server server{for_many(), lesson};
+  auto options = quick(server);
+  options.observer = "observer";
+  options.answer_every = milliseconds{400};
+  const auto result = rehearse(options);
+  EXPECT_EQ(result.num_finished(), 12U);
+  for (const auto* who : {"facilitator", "observer"}) EXPECT_THAT(lesson.looked_at[who], SizeIs(4)) << who;
+  EXPECT_THAT(result.problems, ElementsAre("a page"));
+}
+
 TEST(Rehearsal, LosesAndRepeatsNothingWhenConnectionsBreak) {
   FakeLesson lesson{3, true};
   Server server{for_many(), lesson};

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct RehearsalOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
   std::string facilitator;  ///< Token of a facilitator: makes the rooms, and ends them when time is up.
+  /// Token of an observer: with it, an observer and a facilitator look at one group after another all the time.
+  std::string observer{};
   std::size_t groups = 1;
   std::size_t people = 0;  ///< Per group; 0: as the study says.
   std::string strategy{};  ///< Of all groups; empty: those of the design in turn.
@@ -64,6 +67,7 @@ struct RehearsalResult {
   std::uint64_t connections_lost = 0;               ///< Not by the rehearsal itself.
   std::map<std::string, std::size_t> stages{};      ///< How many people ended where.
   std::map<std::string, std::uint64_t> refusals{};  ///< How often for which reason.
+  std::set<std::string> problems{};                 ///< What the pages of those who look told of.
   std::vector<std::string> answers{};  ///< Ids of all acknowledged answers: each must be in the store once.
 
   /// How many people came to an end: debrief, ended, declined, full or replaced.
