@@ -247,9 +247,6 @@ std::vector<LiveCell> live_cells(const LiveStudy& study) {
   return cells;
 }
 
-namespace {
-
-// What is kept of people beside their answers, and what is not asked for: for pages that say so.
 Json stored_json(const GroupOptions& group) {
   const bool has_text = std::ranges::any_of(
       group.questions, [](const GroupQuestion& one) { return one.kind == GroupQuestion::Kind::kText; });
@@ -260,6 +257,8 @@ Json stored_json(const GroupOptions& group) {
           {"screening", group.screening.tests > 0},
           {"discussion", group.discussion.choice.is_held()}};
 }
+
+namespace {
 
 // "(MINUTES)" or "[your address]": what a template leaves to its author.
 std::optional<std::string> placeholder_in(const std::string& text) {

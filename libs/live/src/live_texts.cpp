@@ -20,15 +20,7 @@ void fill_in_texts(GroupOptions& group, const Domain& domain) {
   if (group.consent_text.empty() && group.consent_file.empty()) {
     group.consent_text = {
         "You will watch a simulated robot, answer questions about what it would do, and hear whether you were right.",
-        "Taking part is voluntary. You may stop at any time without giving a reason.",
-        "Your answers and the times at which you gave them are recorded."};
-    if (group.ask_name) {
-      group.consent_text.emplace_back("If you type in a name, only the people who run this session see it.");
-    }
-    if (!group.collect_query.empty()) {
-      group.consent_text.emplace_back(
-          "The platform that invited you passes on a code for you, which is recorded, too.");
-    }
+        "Taking part is voluntary. You may stop at any time without giving a reason."};
     if (group.dropout.without_reserve() == DropoutPolicy::kSimulate) {
       group.consent_text.emplace_back("If somebody in your group stops early, a computer program may take that place.");
     }

@@ -128,7 +128,8 @@ class ParticipantPage {
   void add_stage(Json& view, const std::string& stage) const {
     if (stage == "consent") {
       view["consent"] = {{"version", room_.study.group().consent_version},
-                         {"paragraphs", room_.study.group().consent_text}};
+                         {"paragraphs", room_.study.group().consent_text},
+                         {"stores", stored_json(room_.study.group())}};
     } else if (stage == "check") {
       view["check"] = {{"board", live_board(room_.study, room_.study.sandbox)},
                        {"world", world_key(room_.study, room_.study.atlas->id(room_.study.sandbox).mdp)},

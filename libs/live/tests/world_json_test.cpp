@@ -262,8 +262,6 @@ TEST(LiveStudy, SaysWhatIsStored) {
     EXPECT_NE(told.at(name), plain.at(name)) << key;
   }
   EXPECT_EQ(plain.size(), keys.size());
-  const auto consent = [](const std::string& key) { return live_study("[group]\n" + key)->group().consent_text; };
-  EXPECT_GT(consent("collect_query = [\"PID\"]\n").size(), consent("").size());
 }
 
 TEST(LiveStudy, WarnsOfWhatATemplateLeftOpen) {

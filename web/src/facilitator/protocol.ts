@@ -1,5 +1,6 @@
 // What the server sends to facilitators and observers, and what it takes from facilitators.
 import type { Frame, MapDomain, Path, Place } from '../shared/board/types';
+import type { Stores } from '../shared/stores';
 
 export type { Frame };
 export type Role = 'facilitator' | 'observer';
@@ -20,8 +21,7 @@ export interface StudyInfo {
   types: { letter: string; label: string }[];
   dropout: string;
   grace_s: number;
-  // What is kept of people beside their answers.
-  stores: { names: boolean; text: boolean; questions: boolean; query: string[]; screening: boolean; discussion: boolean };
+  stores: Stores;
   time: Record<string, number>;
   size?: number; // seats of a room unless said otherwise
 }

@@ -3,6 +3,7 @@ import type { Frame, Path, PlayBoard } from '../shared/board/types';
 import type { KeyPress } from '../shared/play/drive';
 import type { Bracket } from '../shared/play/brackets';
 import type { Runs } from '../shared/play/runs';
+import type { Stores } from '../shared/stores';
 
 export type { Frame } from '../shared/board/types';
 
@@ -87,7 +88,7 @@ export interface ParticipantView {
   group: { size: number; active: number };
   notices: { text: string; at_ms: number }[];
   pause?: Pause;
-  consent?: { version: string; paragraphs: string[] };
+  consent?: { version: string; paragraphs: string[]; stores?: Stores };
   check?: { board: PlayBoard; world?: string; start?: number; parts?: number; most?: number; ask_name?: boolean };
   screening?: Task; // or `predict` in the stage screening
   lobby?: {

@@ -4,7 +4,8 @@ import { useState } from 'preact/hooks';
 import { download } from '../../shared/download';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
-import { t } from '../../shared/texts';
+import type { Stores } from '../../shared/stores';
+import { listed, t } from '../../shared/texts';
 import { transport } from '../../shared/transport';
 
 type Shown = NonNullable<ScreenProps['view']['consent']>;
@@ -15,7 +16,7 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
   const [declines, setDeclines] = useState(false);
   const off = connection.isPending('consent');
   const { version } = consent;
-  const paragraphs = [...consent.paragraphs, ...transport().notices()];
+  const paragraphs = [...consent.paragraphs, ...(transport().isLocal ? transport().notices() : whatIsStored(consent.stores))];
   const agree = (): void => {
     setMissing(!agrees);
     if (agrees) connection.send('consent', { accept: true, version });
@@ -70,6 +71,22 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
       </div>
     </>
   );
+}
+
+// What the server keeps of whoever takes part.
+function whatIsStored(stores?: Stores): string[] {
+  if (!stores) return [];
+  const kept = [
+    t('stored.answers'),
+    t(stores.names ? 'stored.names' : 'stored.no_names'),
+    stores.query.length > 0 && t('stored.query', { names: listed(stores.query) }),
+    stores.screening && t('stored.screening'),
+    stores.questions && t('stored.questions'),
+    stores.discussion && t('stored.discussion'),
+    t('stored.not'),
+    t('stored.kept'),
+  ];
+  return [`# ${t('stored.title')}`, ...kept.filter((text) => text !== false).map((text) => `* ${text}`)];
 }
 
 // The reader's own copy, as a text file.

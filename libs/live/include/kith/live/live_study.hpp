@@ -74,6 +74,10 @@ struct LiveCell {
 /// `size` is the number of seats of the largest.
 [[nodiscard]] Json live_study_json(const LiveStudy& study);
 
+/// What a session keeps of people beside their answers, for pages that say so: {names, text, questions, screening,
+/// discussion}, whether there are any, and query, the parameters of links that are collected.
+[[nodiscard]] Json stored_json(const GroupOptions& group);
+
 /// {lang, dir, strings}: texts of pages that differ from the built-in English ones.
 [[nodiscard]] Json language_json(const LiveStudy& study);
 
