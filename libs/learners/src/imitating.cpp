@@ -27,23 +27,6 @@ class ImitatingLearner final : public LikeBayesian {
     shown_.insert(shown_.end(), demonstrations.begin(), demonstrations.end());
   }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
-                                std::size_t period) const override {
-    auto response = person_.answer(behaviours, tests, period);
-    if (!response.weights || shown_.empty()) return response;
-    const auto& atlas = behaviours.atlas();
-    std::optional<PolicyCellIndex> cell;
-    for (std::size_t t = 0; t < tests.size(); ++t) {
-      auto& given = response.answers[t];
-      auto random = random_.split("imitates").split(period).split(t);
-      if (!given || uniform01(random) < reward_) continue;
-      const auto copied = transferred(atlas, shown_[categorical(similarity(atlas, tests[t]), random)], tests[t]);
-      if (copied && copied->rest && !cell) cell = behaviours.locate(*response.weights);
-      if (copied) given = path(atlas, *copied, cell, *given);
-    }
-    return response;
-  }
-
   [[nodiscard]] std::optional<double> likelihood(const AnswerEvidence& evidence) const override {
     require_paths(evidence);
     if (shown_.empty()) return person_.likelihood(evidence);
@@ -72,6 +55,21 @@ class ImitatingLearner final : public LikeBayesian {
   }
 
  private:
+  void change_answers(Response& response, Behaviours& behaviours, std::span<const StartIndex> tests,
+                      std::size_t period) const override {
+    if (!response.weights || shown_.empty()) return;
+    const auto& atlas = behaviours.atlas();
+    std::optional<PolicyCellIndex> cell;
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      auto& given = response.answers[t];
+      auto random = random_.split("imitates").split(period).split(t);
+      if (!given || uniform01(random) < reward_) continue;
+      const auto copied = transferred(atlas, shown_[categorical(similarity(atlas, tests[t]), random)], tests[t]);
+      if (copied && copied->rest && !cell) cell = behaviours.locate(*response.weights);
+      if (copied) given = path(atlas, *copied, cell, *given);
+    }
+  }
+
   // exp(-distance / temperature) of every demonstration, the nearest having 1.
   [[nodiscard]] std::vector<double> similarity(const Atlas& atlas, StartIndex test) const {
     std::vector<double> values;

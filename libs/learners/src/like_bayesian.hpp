@@ -33,8 +33,18 @@ class LikeBayesian : public Learner {
     person_.watch(half_spaces, period);
   }
   [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
-                                std::size_t period) const override {
-    return person_.answer(behaviours, tests, period);
+                                std::size_t period) const final {
+    auto response = person_.answer(behaviours, tests, period);
+    change_answers(response, behaviours, tests, period);
+    return response;
+  }
+  [[nodiscard]] Response answer_by(Behaviours& behaviours, std::span<const StartIndex> tests, const Direction& weights,
+                                   std::size_t period) const final {
+    Response response{.answers = {}, .weights = weights};
+    const auto cell = behaviours.locate(weights);
+    for (const auto test : tests) response.answers.push_back(behaviours.answer(test, cell));
+    change_answers(response, behaviours, tests, period);
+    return response;
   }
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override {
     person_.hear_feedback(all_correct, half_spaces, period);
@@ -59,6 +69,10 @@ class LikeBayesian : public Learner {
   }
 
  protected:
+  // What the person makes of the best paths for the weights that they have in mind.
+  virtual void change_answers(Response& /*response*/, Behaviours& /*behaviours*/, std::span<const StartIndex> /*tests*/,
+                              std::size_t /*period*/) const {}
+
   LikeBayesian(BayesianLearner person, const RandomStream& random) : person_{std::move(person)}, random_{random} {}
 
   // Becomes (1 - share) times the present belief plus share times another.

@@ -25,21 +25,6 @@ class NoisyRationalLearner final : public LikeBayesian {
   }
   [[nodiscard]] bool answers_as_believed() const override { return false; }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
-                                std::size_t period) const override {
-    auto response = person_.answer(behaviours, tests, period);
-    if (!response.weights) return response;
-    const auto scale = static_cast<double>(behaviours.atlas().domain().count_scale());
-    for (std::size_t t = 0; t < tests.size(); ++t) {
-      auto& given = response.answers[t];
-      if (!given) continue;
-      auto random = random_.split("noise").split(period).split(t);
-      const auto paths = paths_at(behaviours, tests[t], *given);
-      given = paths[categorical(shares_of(paths, *response.weights, scale), random)];
-    }
-    return response;
-  }
-
   [[nodiscard]] std::optional<double> likelihood(const AnswerEvidence& evidence) const override {
     require_paths(evidence);
     const auto& atlas = evidence.atlas();
@@ -59,6 +44,19 @@ class NoisyRationalLearner final : public LikeBayesian {
   }
 
  private:
+  void change_answers(Response& response, Behaviours& behaviours, std::span<const StartIndex> tests,
+                      std::size_t period) const override {
+    if (!response.weights) return;
+    const auto scale = static_cast<double>(behaviours.atlas().domain().count_scale());
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      auto& given = response.answers[t];
+      if (!given) continue;
+      auto random = random_.split("noise").split(period).split(t);
+      const auto paths = paths_at(behaviours, tests[t], *given);
+      given = paths[categorical(shares_of(paths, *response.weights, scale), random)];
+    }
+  }
+
   // The distinct paths that could be best for somebody, or, where they are not tabulated, one's own and those of some
   // others.
   [[nodiscard]] std::vector<IntegerVector> paths_at(Behaviours& behaviours, StartIndex test,

@@ -37,25 +37,6 @@ class SlippingLearner final : public LikeBayesian {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<SlippingLearner>(*this); }
   [[nodiscard]] bool answers_as_believed() const override { return false; }
 
-  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
-                                std::size_t period) const override {
-    auto response = person_.answer(behaviours, tests, period);
-    const auto& atlas = behaviours.atlas();
-    for (std::size_t t = 0; t < tests.size(); ++t) {
-      auto& given = response.answers[t];
-      if (!given) continue;
-      auto random = random_.split("slips").split(period).split(t);
-      const double chance = uniform01(random);
-      if (!is_right_answer(atlas, tests[t], *given)) {
-        if (chance < guess_) given = atlas.feature_counts(tests[t]);
-      } else if (chance < slip_) {
-        const auto slips = slips_at(atlas, tests[t]);
-        if (!slips.empty()) given = slips[uniform_index(slips.size(), random)];
-      }
-    }
-    return response;
-  }
-
   [[nodiscard]] std::optional<double> likelihood(const AnswerEvidence& evidence) const override {
     require_paths(evidence);
     const auto& atlas = evidence.atlas();
@@ -73,6 +54,23 @@ class SlippingLearner final : public LikeBayesian {
   }
 
  private:
+  void change_answers(Response& response, Behaviours& behaviours, std::span<const StartIndex> tests,
+                      std::size_t period) const override {
+    const auto& atlas = behaviours.atlas();
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      auto& given = response.answers[t];
+      if (!given) continue;
+      auto random = random_.split("slips").split(period).split(t);
+      const double chance = uniform01(random);
+      if (!is_right_answer(atlas, tests[t], *given)) {
+        if (chance < guess_) given = atlas.feature_counts(tests[t]);
+      } else if (chance < slip_) {
+        const auto slips = slips_at(atlas, tests[t]);
+        if (!slips.empty()) given = slips[uniform_index(slips.size(), random)];
+      }
+    }
+  }
+
   // Of giving an answer where one's own path is another, or the same.
   [[nodiscard]] double probability(const Atlas& atlas, const GivenAnswer& given, const IntegerVector& own,
                                    const std::vector<IntegerVector>& slips) const {

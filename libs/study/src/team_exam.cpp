@@ -9,10 +9,10 @@
 namespace kith {
 namespace {
 
-// Of people whose answers do not follow from a belief that could be graded: questions, and in how many sittings. In
-// each of these the person answers by other weights.
-constexpr std::size_t kQuestionsInstead = 160;
-constexpr std::size_t kSittings = 8;
+// What people make of their best paths is asked for: so many questions, in as many sittings as weights are drawn from
+// the belief.
+constexpr std::size_t kQuestions = 160;
+constexpr std::size_t kSittings = 16;
 constexpr std::size_t kNextSitting = 1'000'000'000;  // answers are drawn by period: this many periods later
 
 // The sum in the order of size, so that seats do not matter to the last bit.
@@ -25,22 +25,62 @@ double mean(std::vector<double> values) {
 
 }  // namespace
 
+// The grades of the belief and, where people do not take the paths that are best by it, what that changes: the mean
+// difference between their answers and those paths. So whoever changes nothing has the grades of the belief.
 ExamGrades TeamExaminer::grades_of(const Learner& learner, std::size_t period) {
-  if (learner.answers_as_believed()) return cache_.exam().grade(*learner.belief(), cache_.behaviours());
-  if (instead_.empty()) instead_ = cache_.exam().questions(kQuestionsInstead, {}, RandomStream{0}.split("exam"));
-  const std::span<const StartIndex> starts{instead_};
-  const auto length = (starts.size() + kSittings - 1) / kSittings;
-  ExamGrades grades;
-  for (std::size_t begin = 0, sitting = 0; begin < starts.size(); begin += length, ++sitting) {
-    const auto asked = starts.subspan(begin, std::min(length, starts.size() - begin));
-    const auto response = learner.answer(cache_.behaviours(), asked, period + sitting * kNextSitting);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      const auto grade = grade_answer(cache_.atlas(), asked[i], response.answers[i]);
-      grades.all.share_right += grade.share_right / static_cast<double>(starts.size());
-      grades.all.regret += grade.regret / static_cast<double>(starts.size());
-    }
+  const auto* belief = learner.belief();
+  auto grades = belief ? cache_.exam().grade(*belief, cache_.behaviours()) : ExamGrades{};
+  if (learner.answers_as_believed()) return grades;
+  if (asked_.empty()) asked_ = cache_.exam().questions(kQuestions, {}, RandomStream{0}.split("exam"));
+  std::vector<std::optional<Direction>> drawn(kSittings);
+  if (belief) {
+    drawn.clear();
+    for (const auto& draw : belief->systematic_draws(kSittings, RandomStream{0}.split("exam").split("draws")))
+      drawn.insert(drawn.end(), draw.count, belief->point(draw.index));
   }
+  std::vector<Change> changes;
+  for (std::size_t sitting = 0; sitting < kSittings; ++sitting) {
+    std::vector<StartIndex> starts;
+    for (std::size_t i = sitting; i < asked_.size(); i += kSittings) starts.push_back(asked_[i]);
+    add_changes(changes, learner, starts, drawn[sitting], period + sitting * kNextSitting);
+  }
+  add_means(changes, grades);
   return grades;
+}
+
+void TeamExaminer::add_changes(std::vector<Change>& changes, const Learner& learner,
+                               const std::vector<StartIndex>& starts, const std::optional<Direction>& weights,
+                               std::size_t period) {
+  auto& behaviours = cache_.behaviours();
+  const auto response =
+      weights ? learner.answer_by(behaviours, starts, *weights, period) : learner.answer(behaviours, starts, period);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    auto grade = grade_answer(cache_.atlas(), starts[i], response.answers[i]);
+    if (weights) {
+      const auto own = behaviours.answer(starts[i], behaviours.locate(*weights));
+      const auto without = own == response.answers[i] ? grade : grade_answer(cache_.atlas(), starts[i], own);
+      grade = {grade.share_right - without.share_right, grade.regret - without.regret};
+    }
+    changes.push_back({starts[i], grade});
+  }
+}
+
+void TeamExaminer::add_means(const std::vector<Change>& changes, ExamGrades& grades) const {
+  const auto& components = cache_.atlas().knowledge_components();
+  const auto add = [&](Grade& grade, auto counts) {
+    const auto n = static_cast<double>(std::count_if(changes.begin(), changes.end(), counts));
+    for (const auto& change : changes) {
+      if (!counts(change)) continue;
+      grade.share_right += change.grade.share_right / n;
+      grade.regret += change.grade.regret / n;
+    }
+    grade = {std::clamp(grade.share_right, 0.0, 1.0), std::max(grade.regret, 0.0)};
+  };
+  add(grades.all, [](const Change&) { return true; });
+  for (std::size_t k = 0; k < grades.components.size(); ++k) {
+    add(grades.components[k],
+        [&](const Change& change) { return components[k].uses_mdp[cache_.atlas().id(change.start).mdp.value()]; });
+  }
 }
 
 void TeamExaminer::write(std::size_t period, const Learner& learner, const LearnerRecord& row,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kith/learners/learner.hpp"
@@ -22,14 +23,23 @@ class TeamExaminer {
   void at_end(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member);
 
  private:
+  // What a person's answer at a start is worth more than the best path for the weights they have in mind.
+  struct Change {
+    StartIndex start;
+    Grade grade;
+  };
+
   [[nodiscard]] ExamGrades grades_of(const Learner& learner, std::size_t period);
+  void add_changes(std::vector<Change>& changes, const Learner& learner, const std::vector<StartIndex>& starts,
+                   const std::optional<Direction>& weights, std::size_t period);
+  void add_means(const std::vector<Change>& changes, ExamGrades& grades) const;
   void write(std::size_t period, const Learner& learner, const LearnerRecord& row, const ExamGrades& grades);
   void ask(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member);
 
   TeachingCache& cache_;
   const StudySpec& spec_;
   TeamRecord& record_;
-  std::vector<StartIndex> instead_;  // asked of people whose belief cannot be graded; found when first needed
+  std::vector<StartIndex> asked_;  // of people who do not answer as they believe; found when first needed
 };
 
 // The exam of the team from those of its members.

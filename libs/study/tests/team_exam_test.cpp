@@ -133,5 +133,35 @@ TEST(TeamExam, FindsPlannedLessonsBetter) {
   EXPECT_LT(regret("oracle"), joint);
 }
 
+// Kinds that are told apart by nothing but parameters that change nothing are the same people, and the exam says so.
+TEST(TeamExam, IsTheSameForTheSamePeopleOfAllKinds) {
+  const auto study_of = [](const LearnerModel& model, const std::vector<std::pair<std::string, double>>& neutral) {
+    auto study = examined_study(ExamLevel::kPeriod);
+    auto& type = study.variants.front().learner_types.front();
+    type.model = &model;
+    type.parameters = ParameterValues{model.parameters};
+    type.parameters.set("ability.sd", 0.02);
+    for (const auto& [name, value] : neutral) type.parameters.set(name, value);
+    return teams_of(study).front();
+  };
+  const auto usual = study_of(bayesian_model(), {});
+  const auto expect_same = [&](const TeamRecord& team, std::size_t rows, double share, double regret) {
+    ASSERT_EQ(team.exams.size(), usual.exams.size());
+    for (std::size_t i = 0; i < rows; ++i) {
+      SCOPED_TRACE(i);
+      EXPECT_EQ(team.exams[i].component, usual.exams[i].component);
+      EXPECT_NEAR(team.exams[i].share_right, usual.exams[i].share_right, share);
+      EXPECT_NEAR(team.exams[i].regret, usual.exams[i].regret, regret);
+    }
+  };
+  expect_same(study_of(slipping_model(), {{"slip", 0.0}, {"guess", 0.0}}), usual.exams.size(), 1e-12, 1e-12);
+  expect_same(study_of(imitating_model(), {{"reward", 1.0}}), usual.exams.size(), 1e-12, 1e-12);
+  // Before teaching: afterwards these people have seen other things. Two paths can be worth nearly the same to
+  // somebody.
+  const std::size_t before = usual.exams.size() / 4;
+  expect_same(study_of(decaying_model(), {}), before, 1e-12, 1e-12);
+  expect_same(study_of(noisy_rational_model(), {{"rationality", 1000.0}}), before, 0.02, 0.02);
+}
+
 }  // namespace
 }  // namespace kith

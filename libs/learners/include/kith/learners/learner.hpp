@@ -60,6 +60,12 @@ class Learner {
   /// @param behaviours  of the calling thread; a cache that changes no answer.
   [[nodiscard]] virtual Response answer(Behaviours& behaviours, std::span<const StartIndex> tests,
                                         std::size_t period) const = 0;
+  /// What the person would answer with these weights in mind: nothing where they have no optimum. Exams ask like this.
+  /// By default answer(), whatever the weights are.
+  [[nodiscard]] virtual Response answer_by(Behaviours& behaviours, std::span<const StartIndex> tests,
+                                           const Direction& /*weights*/, std::size_t period) const {
+    return answer(behaviours, tests, period);
+  }
 
   /// Hears whether all answers were right, and sees the corrections, which convey these half-spaces.
   virtual void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) = 0;
