@@ -12,9 +12,11 @@ kith.Learner. Beliefs alone: kith.Cone, kith.ParticleBelief, kith.region. What g
 raise ValueError, TypeError and IndexError.
 """
 
+import copyreg as _copyreg
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from ._core import Cone, LearnerStart, ParticleBelief, RandomStream, Unit, View
 from ._domain import Domain
-from ._env import TeachingEnv
 from ._errors import Diagnostic, Error, Warning
 from ._infer import Explanation, explain_policy
 from ._kinds import Learner, Strategy, strategies
@@ -25,6 +27,11 @@ from ._study import Analysis, Finding, Report, Run, Tables, audit, calibrate, fi
 from ._teach import Record, Transcript, replay, teach
 from ._core import program as _program
 
+if _TYPE_CHECKING:
+    from ._env import TeachingEnv as TeachingEnv
+
+_copyreg.pickle(Cone, lambda cone: (Cone, (cone.facets, cone.dimension)))  # type: ignore[arg-type]
+
 __version__ = _program().split()[0]
 
 __all__ = [
@@ -34,6 +41,15 @@ __all__ = [
     "Test", "Transcript", "Unit", "Verdict", "View", "Warning", "World", "audit", "calibrate", "explain_policy",
     "fit", "power", "region", "replay", "resolve", "strategies", "study", "teach",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """TeachingEnv is made when it is first used: a gymnasium.Env wherever Gymnasium is installed."""
+    if name != "TeachingEnv":
+        raise AttributeError(f"module 'kith' has no attribute '{name}'")
+    from ._env import TeachingEnv
+
+    return TeachingEnv
 
 
 def region(domain: Domain) -> Cone:

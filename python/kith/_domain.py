@@ -37,6 +37,15 @@ class Domain:
         text = os.fspath(source)
         self._native = _core.Domain.from_text(text, "domain") if "\n" in text else _core.Domain(text)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (self.text, dict(self._native.files), self.id, self.explanation)
+
+    def __copy__(self) -> Domain:
+        return self  # it does not change
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Domain:
+        return self
+
     @classmethod
     def _of(cls, native: _core.Domain) -> Domain:
         domain = cls.__new__(cls)
@@ -57,9 +66,12 @@ class Domain:
         weights      the robot's reward weights, shape [d], or a dictionary by name
 
         Options: terminal (states in which an episode has ended; default: those that nothing leaves), discount = 1,
-        feature_names, action_names, state_names, initial, starts (default: everywhere), prior (half-spaces that
-        everybody knows), words (how people call features), id, title. ValueError for arrays of wrong shape, NaN, or
-        rows that do not sum to 1.
+        feature_names, action_names, state_names, initial, starts (default: where other states lead), prior
+        (half-spaces that everybody knows, shape [n, d] or dictionaries by name), words (how people call features),
+        columns (of a grid whose states are numbered row by row: it is drawn), map (rows and legend of its picture, as
+        in a domain file), id, title. ValueError for arrays of wrong shape, NaN, or rows that do not sum to 1.
+
+        States keep their numbers: in policy, paths and starts.
         """
         from ._models import domain_from_arrays
 
@@ -156,8 +168,9 @@ class Domain:
         return [start for world in self.worlds for start in world.starts]
 
     @cached_property
-    def policy(self) -> list[list[str]]:
-        """What the robot does: policy[world][state] is the name of an action."""
+    def policy(self) -> list[list[Optional[str]]]:
+        """What the robot does: policy[world][state] is the name of an action; None where an episode has ended or the
+        robot never is."""
         return [self._native.policy(m) for m in range(self._native.num_worlds)]
 
     @cached_property
@@ -184,7 +197,8 @@ class Domain:
     def path(self, start: Start, weights: Any = None) -> Optional[Path]:
         """What the robot does from a start or, with weights of shape [d], somebody who has these.
 
-        None if they have no optimum there. What chance decides goes as is likeliest; counts are expectations.
+        Weights need one of `starts`; None if they have no optimum there. What chance decides goes as is likeliest; counts
+        are expectations.
         """
         found = self._native.path(start, weights)
         return None if found is None else Path(**found)
@@ -235,3 +249,13 @@ class Domain:
         from ._html import domain_html
 
         return domain_html(self)
+
+
+def _unpickled(text: str, files: dict[str, str], name: str, explanation: Optional[Explanation]) -> Domain:
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # they were given when it was made
+        domain = Domain.from_text(text, files, name)
+    domain.explanation = explanation
+    return domain

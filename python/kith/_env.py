@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import importlib
 from typing import Any, Optional
 
 from ._domain import Domain
@@ -10,18 +10,14 @@ from ._records import Start
 from ._session import People, Session
 
 
-def _gymnasium() -> Any:
-    return sys.modules.get("gymnasium")
-
-
-def _base() -> Any:
-    """Gymnasium's Env where somebody has imported it, so that its checker and wrappers know the class."""
-    gymnasium = _gymnasium()
-    return gymnasium.Env if gymnasium is not None else object
+try:
+    _gymnasium: Any = importlib.import_module("gymnasium")
+except ImportError:
+    _gymnasium = None
 
 
 class _Discrete:
-    """A number from 0 to n - 1; in place of gymnasium.spaces.Discrete where that is not imported."""
+    """A number from 0 to n - 1; in place of gymnasium.spaces.Discrete where that is not installed."""
 
     def __init__(self, n: int) -> None:
         import random
@@ -40,7 +36,7 @@ class _Discrete:
 
 
 class _Box:
-    """Numbers in [low, high]; in place of gymnasium.spaces.Box where that is not imported."""
+    """Numbers in [low, high]; in place of gymnasium.spaces.Box where that is not installed."""
 
     def __init__(self, low: float, high: float, shape: tuple[int, ...]) -> None:
         self.low, self.high, self.shape = low, high, shape
@@ -49,7 +45,7 @@ class _Box:
         return bool(x.shape == self.shape and (x >= self.low).all() and (x <= self.high).all())
 
 
-class TeachingEnv(_base()):  # type: ignore[misc]
+class TeachingEnv(_gymnasium.Env if _gymnasium is not None else object):  # type: ignore[misc]
     """A team of simulated people to be taught, demonstration by demonstration; Gymnasium's interface.
 
     action       a number below len(starts): show what the robot does there; len(starts): on to the tests
@@ -74,21 +70,20 @@ class TeachingEnv(_base()):  # type: ignore[misc]
         self.starts: list[Start] = self.domain.starts
         self._study, self._settings, self._max_periods = study, settings, int(max_periods)
         size = 3 * len(group) + len(self.domain.components) + 2
-        gymnasium = _gymnasium()
-        if gymnasium is None:
+        if _gymnasium is None:
             self.action_space: Any = _Discrete(len(self.starts) + 1)
             self.observation_space: Any = _Box(0.0, 1.0, (size,))
         else:
             import numpy as np
 
-            self.action_space = gymnasium.spaces.Discrete(len(self.starts) + 1)
-            self.observation_space = gymnasium.spaces.Box(0.0, 1.0, (size,), np.float32)
+            self.action_space = _gymnasium.spaces.Discrete(len(self.starts) + 1)
+            self.observation_space = _gymnasium.spaces.Box(0.0, 1.0, (size,), np.float32)
         self._seed = 0
         self._session: Optional[Session] = None
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None) -> tuple[Any, dict[str, Any]]:
         """A new team. Without a seed the next one after that of the last."""
-        if _gymnasium() is not None:
+        if _gymnasium is not None:
             super().reset(seed=seed)
         self._seed = int(seed) if seed is not None else self._seed + 1
         self._session = Session(self.domain, self.group, strategy="by-hand", seed=self._seed, study=self._study,

@@ -43,8 +43,8 @@ def domain_html(domain: Domain) -> str:
             + _inline(domain.region_picture(), 640))
 
 
-def _start(start: Any) -> tuple[int, int]:
-    return start.mdp, start.start
+def _start(domain: Domain, start: Any) -> tuple[int, int]:
+    return start.mdp, domain._native.state_number(start.mdp, start.start)
 
 
 def transcript_html(transcript: Transcript) -> str:
@@ -60,7 +60,7 @@ def transcript_html(transcript: Transcript) -> str:
                          f"{html.escape(period.source)}; {right} of {asked} answers right</summary>")
             for shown in period.demonstrations:
                 words = domain.words(shown.conveys) if domain is not None else []
-                board = _inline(domain.board(_start(shown.start)), 300) if domain is not None else ""
+                board = _inline(domain.board(_start(domain, shown.start)), 300) if domain is not None else ""
                 text = html.escape(", ".join(shown.actions))
                 parts.append(f"{board}<p>{text}<br>{'; '.join(_escaped(words))}</p>")
             parts.append("</details>")

@@ -31,9 +31,13 @@ class Explanation(NamedTuple):
 
 
 def _choices(policy: Any, states: int, actions: int) -> Any:
-    """Actions, shape [S], or probabilities, shape [S, A], as JSON."""
+    """Actions, shape [S], or probabilities, shape [S, A], as JSON; None for a state in which nothing is known."""
     import numpy as np
 
+    known = [s for s, one in enumerate(policy) if one is not None]
+    if len(known) < len(policy) == states:
+        choices = iter(_choices([policy[s] for s in known], len(known), actions))
+        return [None if one is None else next(choices) for one in policy]
     given = _numbers(policy, "policy")
     if given.shape == (states,):
         if (given != np.floor(given)).any() or (given < 0).any() or (given >= actions).any():
@@ -58,8 +62,8 @@ def explain_policy(transitions: Any, features: Any, policy: Any, **options: Any)
     """The weights under which a policy is optimal or, if there are none, some that explain most of it.
 
     transitions, features, and options such as terminal, discount and prior as of Domain.from_arrays(); policy: an
-    action per state, shape [S], or probabilities, shape [S, A]. Actions that never leave their state, or after which an
-    end cannot surely be reached, count as unexplained. kith.Error if the best weights explain less than half of it, or
-    no more than of a robot that acts at random.
+    action per state, shape [S], or probabilities, shape [S, A]; None in their place where nothing is known. Actions
+    that never leave their state, or after which an end cannot surely be reached, count as unexplained. kith.Error if
+    the best weights explain less than half of it, or no more than of a robot that acts at random.
     """
     return infer(transitions, features, policy, **options)[1]

@@ -54,6 +54,7 @@ def _tidy(number: float) -> float:
 def _file(table: list[Any], features: Sequence[str], weights: Optional[Mapping[str, float]], actions: Sequence[str],
             *, discount: float = 1.0, state_names: Optional[Sequence[str]] = None, initial: Optional[int] = None,
             starts: Optional[Sequence[int]] = None, prior: Any = None, words: Optional[Mapping[str, Any]] = None,
+            columns: Optional[int] = None, map: Optional[Mapping[str, Any]] = None,
             id: str = "robot", title: str = "", max_steps: Optional[int] = None) -> tuple[str, str, dict[str, str]]:
     """Text and name of a domain file, and the files that it names; without weights where there are features, nothing
     says what they are worth yet."""
@@ -75,8 +76,13 @@ def _file(table: list[Any], features: Sequence[str], weights: Optional[Mapping[s
     if weights is not None:
         file["reward"] = {"weights": {name: _tidy(one) for name, one in weights.items()}}
     if prior is not None:
-        rows = [[_tidy(float(x)) for x in row] for row in _numbers(prior, "prior").reshape(-1, len(features))]
-        file["prior"] = {"halfspaces": [{name: x for name, x in zip(features, row) if x} for row in rows]}
+        rows = prior if all(isinstance(one, Mapping) for one in prior) else [
+            dict(zip(features, row)) for row in _numbers(prior, "prior").reshape(-1, len(features)).tolist()]
+        file["prior"] = {"halfspaces": [{str(name): _tidy(float(x)) for name, x in row.items() if x} for row in rows]}
+    if columns is not None:
+        file["model"]["drawing"] = {"columns": int(columns)}
+    if map is not None:
+        file["map"] = dict(map)
     if words is not None:
         file["words"] = dict(words)
     return toml_text(file), id, {FILE: json.dumps(model)}

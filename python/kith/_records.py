@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple, Optional
 
 Start = tuple[int, int]
-"""Where a demonstration or a test begins: number of the world, number of the state."""
+"""Where a demonstration or a test begins: number of the world, number of the state. Models that count their states from
+0, as arrays do, keep these numbers; elsewhere they are those of tables of runs."""
 HalfSpace = tuple[int, ...]
 """A normal n, shape [d]: all weights with n . w >= 0."""
 Counts = tuple[float, ...]
@@ -122,7 +123,7 @@ class World(NamedTuple):
     index: int  # type: ignore[assignment]  # of a tuple it would be a method
     name: str
     state_names: list[str]
-    """Of all states; those in which an episode has ended come last."""
+    """By the number of the state; empty for states that were left out. On maps ends come last."""
     starts: list[Start]
     """Where demonstrations and tests may begin."""
     initial: Start

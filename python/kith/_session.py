@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from copy import copy
 from typing import Any, Optional, Union
 
 from . import _core
 from ._domain import Domain
+from ._journal import Journaled
 from ._kinds import strategy_name
 from ._records import Counts, Feedback, Lesson, Period, Start
 from ._settings import overrides
 
 
-class People:
-    """Simulated people with beliefs of their own, as studies draw them.
+class People(Journaled):
+    """Simulated people with beliefs of their own, as studies draw them. Copied, and pickled as what was done to them.
 
     group     letters of the study's learner types, such as "NNP"
     seed      equal seeds give the people that `kith teach` and kith.teach() have
@@ -21,6 +23,7 @@ class People:
     """
 
     def __init__(self, domain: Domain, group: str = "NNP", seed: int = 1, study: str = "paper", **settings: Any) -> None:
+        self._begin(domain, group, seed, study, **settings)
         self.domain = domain
         self._native = _core.People(domain._native, group, seed, study, "", list(overrides(settings)))
 
@@ -29,11 +32,7 @@ class People:
 
     def copy(self) -> People:
         """The same people, who go on independently."""
-        other = People.__new__(People)
-        other.domain, other._native = self.domain, self._native.copy()
-        return other
-
-    __copy__ = copy
+        return copy(self)
 
     @property
     def knowledge(self) -> list[float]:
@@ -46,14 +45,15 @@ class People:
 
     def answers(self, session: Session, member: int) -> list[Optional[Counts]]:
         """One of them watches the session's lesson and answers its tests; once per lesson."""
-        return self._native.answers(session._native, member)
+        answers: list[Optional[Counts]] = self._do("answers", session, member)
+        return answers
 
     def hear_feedback(self, session: Session, member: int) -> None:
         """One of them hears the feedback of the session's last period."""
-        self._native.hear_feedback(session._native, member)
+        self._do("hear_feedback", session, member)
 
 
-class Session:
+class Session(Journaled):
     """One group being taught, event by event. Whoever drives it brings the answers: people, a robot, a program.
 
         while session.propose():                     # chooses session.lesson; False: nothing is left to teach
@@ -63,7 +63,8 @@ class Session:
             session.close_tests()
             session.give_feedback()
 
-    An event that is refused raises kith.Error and changes nothing. copy() gives a session that goes on independently.
+    An event that is refused raises kith.Error and changes nothing. copy() gives a session that goes on independently; a
+    pickle holds what was done.
 
     group     letters of the study's learner types; without, `members` people
     strategy  the name of one, a class of your own (kith.Strategy), or "by-hand": propose(demonstrations=[start, ...])
@@ -72,59 +73,56 @@ class Session:
 
     def __init__(self, domain: Domain, group: str = "", *, members: int = 3, strategy: Any = "common", seed: int = 1,
                  study: str = "paper", **settings: Any) -> None:
+        self._begin(domain, group, members=members, strategy=strategy, seed=seed, study=study, **settings)
         self.domain = domain
         self._native = _core.Session(domain._native, group, members, strategy_name(strategy), seed, study, "",
                                      list(overrides(settings)))
 
     def copy(self) -> Session:
         """A session in the same state that goes on independently."""
-        other = Session.__new__(Session)
-        other.domain, other._native = self.domain, self._native.copy()
-        return other
-
-    __copy__ = copy
+        return copy(self)
 
     def propose(self, demonstrations: Optional[Iterable[Start]] = None, people: Optional[People] = None) -> bool:
         """Chooses the next lesson. False: nothing is left to teach, the session has ended.
 
         demonstrations: what to show, with strategy="by-hand"; people: for strategies that see into simulated people.
         """
-        return self._native.propose(None if demonstrations is None else list(demonstrations),
-                                    None if people is None else people._native)
+        more: bool = self._do("propose", None if demonstrations is None else list(demonstrations), people)
+        return more
 
     def show(self) -> None:
         """Everybody present has watched the demonstrations."""
-        self._native.show()
+        self._do("show")
 
     def answer(self, member: int, answers: Sequence[Optional[Counts]]) -> None:
         """A member's answers, one per test: feature counts of the expected path, shape [d], or None."""
-        self._native.answer(member, answers)
+        self._do("answer", member, list(answers))
 
     def close_tests(self) -> Feedback:
         """No more answers are taken. What give_feedback() will tell."""
-        feedback: Feedback = self._native.close_tests()
+        feedback: Feedback = self._do("close_tests")
         return feedback
 
     def give_feedback(self) -> Feedback:
         """Everybody present has heard the feedback. The period ends."""
-        feedback: Feedback = self._native.give_feedback()
+        feedback: Feedback = self._do("give_feedback")
         return feedback
 
     def leave(self, member: int) -> None:
         """A member leaves."""
-        self._native.leave(member)
+        self._do("leave", member)
 
     def come_back(self, member: int) -> None:
         """A member who left takes part from the next lesson on."""
-        self._native.come_back(member)
+        self._do("come_back", member)
 
     def replace(self, member: int) -> None:
         """Somebody else takes the place of a member who left."""
-        self._native.replace(member)
+        self._do("replace", member)
 
     def run_period(self, people: People) -> None:
         """A whole period with simulated people, one per seat, after propose()."""
-        self._native.run_period(people._native)
+        self._do("run_period", people)
 
     @property
     def lesson(self) -> Lesson:

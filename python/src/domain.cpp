@@ -1,10 +1,12 @@
 #include "domain.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "arrays.hpp"
 #include "errors.hpp"
@@ -51,19 +53,52 @@ MdpIndex world_of(const Domain& domain, std::size_t world) {
   return MdpIndex{world};
 }
 
-// Actions of the robot by state, or of what is optimal under other weights; None in no state.
+// The number that a model of so many states calls a state by, as in "12" or "12 (end)"; nothing if it calls it
+// otherwise.
+std::optional<std::size_t> number_in(const std::string& key, std::size_t num_states) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+  const std::string_view rest{end, static_cast<std::size_t>(key.data() + key.size() - end)};
+  if (error != std::errc{} || number >= num_states || !(rest.empty() || rest == " (end)")) return std::nullopt;
+  return number;
+}
+
+// A value per state, by number; `other` for numbers whose state is left out.
+template <typename ValueOf>
+py::list by_number(const Domain& domain, MdpIndex m, std::size_t count, const py::object& other, ValueOf value) {
+  std::vector<py::object> values;
+  const auto& keys = domain.model_keys();
+  for (const auto& key : keys) {
+    const auto number = number_in(key, keys.size());
+    if (domain.num_mdps() == 1 && keys.front() == "0" && number && *number >= values.size())
+      values.resize(*number + 1, other);
+  }
+  for (std::size_t s = 0; s < count; ++s) {
+    const auto number = state_number(domain, m, StateIndex{s});
+    if (number >= values.size()) values.resize(number + 1, other);
+    if (values[number].is(other)) values[number] = value(StateIndex{s});  // states come before ends of the same number
+  }
+  py::list list;
+  for (auto& one : values) list.append(std::move(one));
+  return list;
+}
+
+// Actions of the robot by state.
 py::list policy(LoadedDomain& self, std::size_t world) {
   const auto atlas = self.atlas();
   const auto m = world_of(self.domain(), world);
-  py::list actions;
-  for (std::size_t s = 0; s < self.domain().mdp(m).num_states(); ++s)
-    actions.append(self.domain().action_names()[atlas->action(atlas->index({m, StateIndex{s}})).value()]);
-  return actions;
+  const auto& mdp = self.domain().mdp(m);
+  const bool is_map = self.domain().model_keys().empty();  // whose ends come last and are no cells to act in
+  const auto count = is_map ? mdp.num_states() : mdp.num_states() + mdp.num_terminals();
+  return by_number(self.domain(), m, count, py::none(), [&](StateIndex s) -> py::object {
+    if (s.value() >= mdp.num_states()) return py::none();
+    return py::str(self.domain().action_names()[atlas->action(atlas->index({m, s})).value()]);
+  });
 }
 
 py::dict path_to_python(const Domain& domain, MdpIndex m, const Trajectory& path, const IntegerVector& counts) {
   py::list states, actions;
-  for (const auto state : path.states) states.append(state.value());
+  for (const auto state : path.states) states.append(state_number(domain, m, state));
   for (const auto action : path.actions) actions.append(domain.action_names()[action.value()]);
   py::dict result;
   result["world"] = m.value();
@@ -77,7 +112,7 @@ py::dict path_to_python(const Domain& domain, MdpIndex m, const Trajectory& path
 
 // What somebody does from a start, and how it ends; None if they have no optimum there.
 py::object path(LoadedDomain& self, const py::object& start, const py::object& weights) {
-  const auto demo = self.state_of(start);
+  const auto demo = weights.is_none() ? self.state_of(start) : self.candidate_of(start);
   const auto atlas = self.atlas();
   const auto m = atlas->id(demo).mdp;
   if (weights.is_none()) return path_to_python(self.domain(), m, atlas->trajectory(demo), atlas->feature_counts(demo));
@@ -198,11 +233,24 @@ StartIndex LoadedDomain::state_of(const py::handle& start) {
   const auto numbers = integers_of(start, 2, "a start (world, state)");
   if (numbers[0] < 0 || numbers[1] < 0) throw py::index_error{"a start is (world, state), both counted from 0"};
   const auto m = world_of(domain_, static_cast<std::size_t>(numbers[0]));
-  const auto s = static_cast<std::size_t>(numbers[1]);
-  if (s >= domain_.mdp(m).num_states())
-    throw py::index_error{"world " + std::to_string(m.value()) + " has no state " + std::to_string(s) +
-                          " in which the robot acts, only 0 to " + std::to_string(domain_.mdp(m).num_states() - 1)};
-  return atlas()->index({m, StateIndex{s}});
+  const auto s = state_with_number(domain_, m, static_cast<std::size_t>(numbers[1]));
+  if (!s)
+    throw py::index_error{"world " + std::to_string(m.value()) + " has no state " + std::to_string(numbers[1]) +
+                          " in which the robot acts"};
+  return atlas()->index({m, *s});
+}
+
+std::size_t state_number(const Domain& domain, MdpIndex m, StateIndex s) {
+  const auto& keys = domain.model_keys();
+  if (keys.empty() || keys.front() != "0") return s.value();
+  return number_in(domain.state_key(m, s), keys.size()).value_or(s.value());
+}
+
+std::optional<StateIndex> state_with_number(const Domain& domain, MdpIndex m, std::size_t number) {
+  for (std::size_t s = 0; s < domain.mdp(m).num_states(); ++s) {
+    if (state_number(domain, m, StateIndex{s}) == number) return StateIndex{s};
+  }
+  return std::nullopt;
 }
 
 StartIndex LoadedDomain::candidate_of(const py::handle& start) {
@@ -213,7 +261,7 @@ StartIndex LoadedDomain::candidate_of(const py::handle& start) {
 
 py::tuple LoadedDomain::start_of(const Atlas& atlas, StartIndex demo) {
   const auto id = atlas.id(demo);
-  return py::make_tuple(id.mdp.value(), id.start.value());
+  return py::make_tuple(id.mdp.value(), state_number(atlas.domain(), id.mdp, id.start));
 }
 
 void bind_domain(py::module_& module) {
@@ -266,25 +314,31 @@ void bind_domain(py::module_& module) {
           "state_names",
           [](const LoadedDomain& self, std::size_t world) {
             const auto m = world_of(self.domain(), world);
-            py::list names;
             const auto& mdp = self.domain().mdp(m);
-            for (std::size_t s = 0; s < mdp.num_states() + mdp.num_terminals(); ++s)
-              names.append(self.domain().state_name(m, StateIndex{s}));
-            return names;
+            return by_number(self.domain(), m, mdp.num_states() + mdp.num_terminals(), py::str(""),
+                             [&](StateIndex s) { return py::str(self.domain().state_name(m, s)); });
           },
           py::arg("world"))
       .def(
           "starts",
           [](const LoadedDomain& self, std::size_t world) {
             py::list states;
-            for (const auto s : self.domain().starts(world_of(self.domain(), world))) states.append(s.value());
+            const auto m = world_of(self.domain(), world);
+            for (const auto s : self.domain().starts(m)) states.append(state_number(self.domain(), m, s));
             return states;
           },
           py::arg("world"))
       .def(
+          "state_number",
+          [](const LoadedDomain& self, std::size_t world, std::size_t state) {
+            return state_number(self.domain(), world_of(self.domain(), world), StateIndex{state});
+          },
+          py::arg("world"), py::arg("state"))
+      .def(
           "initial",
           [](const LoadedDomain& self, std::size_t world) {
-            return self.domain().initial_state(world_of(self.domain(), world)).value();
+            const auto m = world_of(self.domain(), world);
+            return state_number(self.domain(), m, self.domain().initial_state(m));
           },
           py::arg("world"))
       .def(

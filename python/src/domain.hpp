@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +62,12 @@ class LoadedDomain : public std::enable_shared_from_this<LoadedDomain> {
   std::shared_ptr<const Atlas> atlas_;
   std::vector<std::unique_ptr<TeachingCache>> free_;
 };
+
+/// The number of a state where whoever wrote the model counted from 0, as arrays and Gymnasium's tables do; an end that
+/// is also passed through has that of the state. On a map, and where a model calls states otherwise, s itself.
+[[nodiscard]] std::size_t state_number(const Domain& domain, MdpIndex m, StateIndex s);
+/// The state in which the robot acts that has this number; nothing if there is none.
+[[nodiscard]] std::optional<StateIndex> state_with_number(const Domain& domain, MdpIndex m, std::size_t number);
 
 using DomainPointer = std::shared_ptr<LoadedDomain>;
 

@@ -11,8 +11,7 @@
 namespace kith::python {
 namespace {
 
-// What a state is called in the arrays that a model of one world was made of.
-int number_of(const Domain& domain, StartId id) { return std::stoi(domain.state_key(id.mdp, id.start)); }
+std::size_t number_of(const Domain& domain, StartId id) { return state_number(domain, id.mdp, id.start); }
 
 py::dict to_python(const Domain& domain, const WeightInference& inference) {
   py::list unexplained, sides, clashes;

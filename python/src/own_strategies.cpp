@@ -109,10 +109,9 @@ class View {
     if (id[0] < 0 || id[1] < 0 || static_cast<std::size_t>(id[0]) >= atlas.domain().num_mdps())
       throw py::index_error{"there is no such start"};
     const MdpIndex m{static_cast<std::size_t>(id[0])};
-    const StateIndex s{static_cast<std::size_t>(id[1])};
-    if (s.value() >= atlas.domain().mdp(m).num_states() || !atlas.is_candidate(atlas.index({m, s})))
-      throw py::index_error{"there is no such start"};
-    return atlas.index({m, s});
+    const auto s = state_with_number(atlas.domain(), m, static_cast<std::size_t>(id[1]));
+    if (!s || !atlas.is_candidate(atlas.index({m, *s}))) throw py::index_error{"there is no such start"};
+    return atlas.index({m, *s});
   }
 
   [[nodiscard]] py::list candidates() const {

@@ -1,13 +1,15 @@
 """Domains, from everywhere."""
 
+import copy
 import os
 import pathlib
+import pickle
 import tempfile
 import unittest
 
 import kith
 import numpy as np
-from support import LAKE_ACTIONS, PROGRAM, SOURCE, lake, lake_domain
+from support import LAKE_ACTIONS, PROGRAM, SOURCE, LakeEnv, lake, lake_domain
 
 
 def corridor(chance=1.0):
@@ -81,7 +83,7 @@ class Arrays(unittest.TestCase):
         transitions, features = corridor()
         robot = kith.Domain.from_arrays(transitions, features, [-2, -1], feature_names=["mud", "step"],
                                         action_names=["back", "on"])
-        self.assertEqual(robot.policy, [["on", "on", "on"]])
+        self.assertEqual(robot.policy, [["on", "on", "on", None]])
         self.assertEqual(robot.path((0, 0)).counts, (1, 3))
         self.assertEqual(robot.feature_names, ("mud", "step"))
 
@@ -100,7 +102,7 @@ class Arrays(unittest.TestCase):
     def test_chance_is_planned_with(self):
         transitions, features = corridor(0.5)
         robot = kith.Domain.from_arrays(transitions, features, [-2, -1])
-        self.assertEqual(robot.policy[0], ["action2"] * 3)
+        self.assertEqual(robot.policy[0], ["action2"] * 3 + [None])
         self.assertAlmostEqual(robot.path((0, 0)).counts[1], 6.0, places=5)
 
     def test_wrong_arrays_are_refused(self):
@@ -140,6 +142,50 @@ class Gymnasium(unittest.TestCase):
             P = table
         robot = kith.Domain.from_gymnasium(Env(), discount=0.95)
         self.assertGreaterEqual(len(robot.feature_names), 1)
+
+    def test_policies_paths_and_starts_have_the_numbers_of_the_table(self):
+        env = LakeEnv()
+        robot = lake_domain(kith)
+        self.assertEqual(len(robot.policy[0]), 16)
+        for s, action in enumerate(robot.policy[0]):
+            self.assertEqual(action is None, s in env.holes + [15], s)
+        self.assertEqual({s for _, s in robot.starts}, {s for s in range(16) if robot.policy[0][s] is not None})
+        path = robot.path((0, 0))
+        self.assertEqual((path.states[0], path.states[-1]), (0, 15))
+        for s, action, t in zip(path.states, path.actions, path.states[1:]):
+            self.assertEqual(env.P[s][LAKE_ACTIONS.index(action)][0][1], t)
+            self.assertEqual(robot.policy[0][s], action)
+
+    def test_what_a_file_takes_the_module_takes(self):
+        env = LakeEnv()
+        features = {"hole": lambda s, a, t: t in env.holes, "step": lambda s, a, t: 1}
+        weights = {"hole": -5, "step": -1}
+        by_name = kith.Domain.from_gymnasium(env, features, weights, prior=[{"step": -1}], columns=4)
+        by_array = kith.Domain.from_gymnasium(env, features, weights, prior=[[0, -1]])
+        self.assertEqual(by_name.prior, by_array.prior)
+        self.assertEqual(len(by_name.worlds[0].map), 4)
+        self.assertIn("<svg", by_name.board((0, 0)))
+        told = kith.teach(by_name, "NP", "joint", teacher={"particles": 200})
+        for shown in told.sessions[0].periods[0].demonstrations:
+            number = next(s for w, s in by_name.starts if by_name.worlds[w].state_names[s] == shown.start.name)
+            self.assertIn(by_name.board((0, number)).split("<title>")[1], told._repr_html_())
+
+    def test_it_is_copied_and_pickled(self):
+        robot = lake_domain(kith)
+        for other in (copy.copy(robot), copy.deepcopy(robot), pickle.loads(pickle.dumps(robot))):
+            self.assertEqual((other.text, other.policy, other.id), (robot.text, robot.policy, robot.id))
+        self.assertEqual(pickle.loads(pickle.dumps(robot.region)), robot.region)
+        session, people = kith.Session(robot, "NP"), kith.People(robot, "NP")
+        session.propose()
+        session.run_period(people)
+        session.propose()
+        again, others = pickle.loads(pickle.dumps((session, people)))
+        self.assertEqual(again, session)
+        self.assertEqual(others.knowledge, people.knowledge)
+        session.run_period(people)
+        again.run_period(others)
+        self.assertEqual(others.knowledge, people.knowledge)
+        self.assertEqual(again, session)
 
     def test_an_environment_without_a_table_is_refused(self):
         with self.assertRaisesRegex(ValueError, "P"):

@@ -137,14 +137,10 @@ class Policies(unittest.TestCase):
             self.assertTrue(found.region.contains(found.weights))
 
     def test_the_region_is_that_of_the_domain(self):
-        names = [f"cell {s}" for s in range(16)]
         for _ in range(20):
             transitions, features = grid(self.random, 4)
-            robot = kith.Domain.from_arrays(transitions, features, self.weights(), state_names=names)
-            world = robot.worlds[0]
-            policy = np.zeros(16, int)
-            for name, action in zip(world.state_names, robot.policy[0]):
-                policy[names.index(name)] = robot.action_names.index(action)
+            robot = kith.Domain.from_arrays(transitions, features, self.weights())
+            policy = [None if action is None else robot.action_names.index(action) for action in robot.policy[0]]
             found = kith.explain_policy(transitions, features, policy, prior=robot.prior.facets)
             self.assertEqual(found.region, robot.region)
             self.assertEqual(found.clashes, [])

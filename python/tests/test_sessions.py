@@ -2,6 +2,11 @@
 
 import copy
 import importlib.util
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
 import threading
 import unittest
 
@@ -186,10 +191,28 @@ class Environment(unittest.TestCase):
         with self.assertRaises(ValueError):
             env.step(-1)
 
+    def test_an_episode_is_copied_and_pickled(self):
+        env = kith.TeachingEnv(ROBOT, "NP", **SMALL)
+        env.reset(seed=4)
+        for action in (0, 1, len(env.starts), 2):
+            env.step(action)
+        others = [copy.deepcopy(env), pickle.loads(pickle.dumps(env))]
+        told = env.step(len(env.starts))
+        for other in others:
+            np.testing.assert_array_equal(other.step(len(other.starts))[0], told[0])
+
+    def test_it_is_an_env_of_gymnasium_whatever_was_imported_first(self):
+        stand_in = ("import types\nclass Env:\n    def reset(self, *, seed=None): pass\n"
+                    "spaces = types.SimpleNamespace(Discrete=lambda n: n, Box=lambda *a: a)\n")
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "gymnasium.py").write_text(stand_in, encoding="utf-8")
+            for first, second in (("kith", "gymnasium"), ("gymnasium", "kith")):
+                code = (f"import sys; sys.path.insert(0, {folder!r})\nimport {first}, {second}\n"
+                        "assert issubclass(kith.TeachingEnv, gymnasium.Env)\n")
+                subprocess.run([sys.executable, "-c", code], check=True)
+
     @unittest.skipUnless(importlib.util.find_spec("gymnasium"), "Gymnasium is not installed")
     def test_gymnasiums_checker_passes(self):
-        import subprocess
-        import sys
         subprocess.run([sys.executable, "-c", "import gymnasium.utils.env_checker as c, kith; "
                         "c.check_env(kith.TeachingEnv('item-delivery', 'NP'), skip_render_check=True)"], check=True)
 
