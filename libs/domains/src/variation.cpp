@@ -48,13 +48,14 @@ constexpr auto kNowhere = std::string_view::npos;
 
 bool is_key_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; }
 
-// Where `key =` begins at or after `from`, as code.
+// Where `key =` or `"key" =` begins at or after `from`, as code.
 std::size_t find_key(std::string_view text, const Scanner& scanner, std::string_view key, std::size_t from) {
   for (auto at = text.find(key, from); at != kNowhere; at = text.find(key, at + 1)) {
-    const auto end = at + key.size();
-    if (!scanner.is_code(at) || (at > 0 && is_key_character(text[at - 1]))) continue;
-    const auto next = text.find_first_not_of(" \t", end);
-    if (next != kNowhere && text[next] == '=') return at;
+    const char before = at > 0 ? text[at - 1] : '\n';
+    const bool is_quoted = (before == '"' || before == '\'') && text.substr(at + key.size()).starts_with(before);
+    if (!is_quoted && (!scanner.is_code(at) || is_key_character(before))) continue;
+    const auto next = text.find_first_not_of(" \t", at + key.size() + (is_quoted ? 1 : 0));
+    if (next != kNowhere && text[next] == '=') return is_quoted ? at - 1 : at;
   }
   return kNowhere;
 }

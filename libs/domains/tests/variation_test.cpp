@@ -63,6 +63,18 @@ TEST(WithOneMap, KeepsCommentsAndIsNotMisledByThemOrByStrings) {
   EXPECT_THAT(*text, Not(HasSubstr("S]rG")));
 }
 
+TEST(WithOneMap, FindsKeysInQuotes) {
+  std::string text = kText;
+  for (const std::string key : {"id = ", "rows = [\"S", "optional = \"", "optional = true }"}) {
+    const auto length = key.find(' ');
+    text.replace(text.find(key), length, '"' + key.substr(0, length) + '"');
+  }
+  const auto changed = with_one_map(text, "new", {"S.]G", "rrr."});
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_THAT(*changed, HasSubstr("{ terrain = \"rubble\" }"));
+  EXPECT_THAT(*changed, HasSubstr("{ terrain = \"gate\" }"));
+}
+
 TEST(WithOneMap, IsNothingForMapsThatAreNotSound) {
   EXPECT_FALSE(with_one_map(kText, "new", {"..]G", "rrr."}).has_value()) << "no start";
   EXPECT_FALSE(with_one_map(kText, "new", {"S.xG", "rrr."}).has_value()) << "an unknown symbol";
