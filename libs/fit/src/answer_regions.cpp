@@ -213,7 +213,10 @@ class AnswerRegions {
       const auto& model = logs_.models[person.model];
       if (!is_planned(model)) return;
       PersonSample one{met_.at(model.atlas.get()), stores_.at(model.atlas.get()), found[i]};
-      const auto random = RandomStream{options_.seed}.split("paths").split(person.id).split(round);
+      auto random = RandomStream{options_.seed}.split("paths").split(lessons_of(person)).split(round);
+      for (const auto& period : person.periods) {  // by the answers, too: each member of a team looks for other paths
+        for (const auto& given : period.given) random = random.split(to_string(given.counts));
+      }
       for (std::size_t a = 0; a < kAbilities.size(); ++a) {
         one.replay(person, model, covers_[person.model], kAbilities[a], options_.draws, random.split(a));
       }

@@ -104,6 +104,20 @@ std::vector<std::string> edge_sentences(const PopulationParameters& best) {
   return sentences;
 }
 
+// What sets people apart but for their names.
+std::string lessons_and_answers(const PersonLog& person) {
+  auto text = lessons_of(person);
+  for (const auto& period : person.periods) {
+    text += period.all_correct ? '+' : '-';
+    for (const auto& answer : period.answers) {
+      text += answer.inside ? '+' : '-';
+      for (const auto& half_space : answer.cone) text += to_string(half_space.normal());
+    }
+    for (const auto& given : period.given) text += to_string(given.counts);
+  }
+  return text + person.type;
+}
+
 constexpr const char* kWhyTheyDiffer =
     "posterior medians and the maximum of the likelihood differ where the answers say little: the median averages over "
     "all values that explain the answers, weighted by a prior (half-normal of scale 0.1 on sd and gains), and the "
@@ -162,7 +176,7 @@ class Fitting {
     type.fit = fit_with_intervals(surface_, members.weights, limits_, GainModel::kFree);
     type.identifiability.gains = compare_gain_scales(surface_, members.weights, limits_);
     auto& masses = masses_.emplace_back();
-    const auto random = RandomStream{options_.seed}.split("populations").split(members.name);
+    const auto random = RandomStream{options_.seed}.split("populations");
     const auto draws = draw_populations(surface_, members.weights, limits_, type.fit, options_.num_draws, random);
     for (const auto& population : draws) masses.push_back(masses_of(surface_, population, limits_, GainModel::kFree));
     type.lower = quantiles(draws, 0.025);
@@ -303,12 +317,18 @@ ParameterGrid grid_of(const FitOptions& options) {
                    options.num_gains);
 }
 
-FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
+FitReport fit_learners(const ResponseLogs& given, const FitOptions& options) {
   constexpr std::size_t kFewest = 3;
-  if (logs.people.size() < kFewest) {
-    too_few("too few people to fit a population: " + std::to_string(logs.people.size()) + ", and 3 are the least");
+  if (given.people.size() < kFewest) {
+    too_few("too few people to fit a population: " + std::to_string(given.people.size()) + ", and 3 are the least");
   }
-  if (options.num_types == 0) static_cast<void>(labelled_members(logs));  // complain before the work
+  if (options.num_types == 0) static_cast<void>(labelled_members(given));  // complain before the work
+  // By what they did, so that neither their names nor the order of the files count.
+  std::vector<std::pair<std::string, std::size_t>> order;
+  for (std::size_t i = 0; i < given.people.size(); ++i) order.emplace_back(lessons_and_answers(given.people[i]), i);
+  std::sort(order.begin(), order.end());
+  auto logs = given;
+  for (std::size_t i = 0; i < order.size(); ++i) logs.people[i] = given.people[order[i].second];
   const auto table = log_likelihoods(
       logs, grid_of(options),
       {.replicates = options.replicates, .seed = options.seed, .slip = options.slip, .parallel = options.parallel});
@@ -317,7 +337,11 @@ FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
     stopped.complete = false;
     return stopped;
   }
-  return Fitting{logs, options, table}.run();
+  auto report = Fitting{logs, options, table}.run();
+  auto people = report.people;
+  for (std::size_t i = 0; i < order.size(); ++i) people[order[i].second] = std::move(report.people[i]);
+  report.people = std::move(people);
+  return report;
 }
 
 std::string learner_section(char letter, const TypeReport& type) {

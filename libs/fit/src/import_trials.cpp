@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "kith/domains/domain_file.hpp"
 #include "open_table.hpp"
 #include "vectors.hpp"
 
@@ -24,6 +25,7 @@ struct Trial {
   bool correct = false;
   std::string component;
   std::vector<HalfSpace> half_spaces;
+  std::vector<HalfSpace> prior;  // what people know beforehand, if the row says so
   std::size_t line = 0;
 };
 
@@ -117,6 +119,8 @@ class TrialImport {
   ResponseLogs run() {
     read();
     detail::throw_if_errors(logs_.notes);
+    for (auto& [domain, knowledge] : domains_) complete(domain, knowledge);
+    detail::throw_if_errors(logs_.notes);
     find_usual_finals();
     for (const auto& [key, participant] : participants_) add_person(key, participant);
     return std::move(logs_);
@@ -125,6 +129,15 @@ class TrialImport {
  private:
   // Person and domain.
   using Key = std::pair<std::string, std::string>;
+
+  // What the rows of a domain say about it.
+  struct Knowledge {
+    std::size_t num_features = 0;                          // 0: unknown
+    std::size_t line = 0;                                  // of the first row
+    std::vector<HalfSpace> prior;                          // what people know beforehand; empty: no row says
+    std::vector<std::pair<std::size_t, HalfSpace>> shown;  // of the robot, by line
+    std::size_t model = 0;
+  };
 
   void complain(std::size_t line, const std::string& id, const std::string& message, const std::string& hint = {}) {
     if (logs_.notes.size() < 20) logs_.notes.push_back(detail::fault(id, message, path_, line, hint));
@@ -165,21 +178,68 @@ class TrialImport {
     note_type(row, participant);
     auto trial = trial_of(row, kind->second);
     if (!trial) return;
-    check_dimension(row, domain, *trial);
+    note_domain(row, domains_[domain], *trial);
     participant.trials.push_back(*std::move(trial));
   }
 
-  // All constraints of a domain are about the same features.
-  void check_dimension(const OpenRow& row, const std::string& domain, const Trial& trial) {
-    for (const auto& half_space : trial.half_spaces) {
-      const auto known = num_features_.try_emplace(domain, half_space.dimension()).first->second;
-      if (half_space.dimension() == known) continue;
-      complain(row.line(), "E0707",
-               "a constraint has " + std::to_string(half_space.dimension()) + " numbers, those of this domain before " +
-                   std::to_string(known),
-               "give one number per feature of the domain");
-      return;
+  // All constraints of a domain are about the same features, and people know the same beforehand.
+  void note_domain(const OpenRow& row, Knowledge& known, const Trial& trial) {
+    if (known.line == 0) known.line = row.line();
+    for (const auto* half_spaces : {&trial.half_spaces, &trial.prior}) {
+      for (const auto& half_space : *half_spaces) {
+        if (known.num_features == 0) known.num_features = half_space.dimension();
+        if (half_space.dimension() == known.num_features) continue;
+        complain(row.line(), "E0707",
+                 "a constraint has " + std::to_string(half_space.dimension()) +
+                     " numbers, those of this domain before " + std::to_string(known.num_features),
+                 "give one number per feature of the domain");
+        return;
+      }
     }
+    if (trial.kind == TrialKind::kDemonstration || trial.kind == TrialKind::kFeedback) {
+      for (const auto& half_space : trial.half_spaces) known.shown.emplace_back(row.line(), half_space);
+    }
+    if (known.prior.empty()) known.prior = trial.prior;
+    if (!trial.prior.empty() && trial.prior != known.prior) {
+      complain(row.line(), "E0707", "the prior is another one than before",
+               "all people of a domain know the same beforehand; give it in one row, or the same in every row");
+    }
+  }
+
+  // What people of a domain know beforehand: as the rows say, as in the domain of that name, or that actions, taken
+  // to be the last feature, cost something.
+  void complete(const std::string& name, Knowledge& known) {
+    const auto built_in = std::find_if(built_in_domains().begin(), built_in_domains().end(),
+                                       [&](const BuiltInDomain& one) { return one.name == name; });
+    const std::size_t n = known.num_features == 0 ? 3 : known.num_features;
+    if (known.prior.empty() && built_in != built_in_domains().end()) take_from(load_domain(name), n, known);
+    if (known.prior.empty()) {
+      remark(known.line, "W0708",
+             "no row of domain '" + name + "' has a prior: feature " + std::to_string(n) +
+                 " of every constraint, the last, is taken for the one that people know to cost something");
+      IntegerVector cost(n);
+      cost[n - 1] = -1;
+      known.prior = {HalfSpace{cost}};
+    }
+    const auto cone = Cone::intersection(known.prior);
+    if (!cone) return complain(known.line, "E0707", "no weights satisfy the prior of domain '" + name + "'");
+    const auto same = std::find_if(logs_.models.begin(), logs_.models.end(),
+                                   [&](const KnownLearner& model) { return model.prior == *cone; });
+    known.model = static_cast<std::size_t>(same - logs_.models.begin());
+    if (same != logs_.models.end()) return;
+    logs_.models.emplace_back().prior = *cone;
+  }
+
+  // The prior of a domain that comes with kith, if what was shown to people holds for its robot.
+  void take_from(const Domain& domain, std::size_t num_features, Knowledge& known) {
+    if (domain.num_features() != num_features) return;
+    for (const auto& [line, half_space] : known.shown) {
+      if (half_space.contains(domain.weights().integer)) continue;
+      return complain(line, "E0707", "people were shown what the robot of '" + domain.id() + "' contradicts",
+                      "its features are " + listed_words(domain.feature_names()) +
+                          ", in this order; if they are not, give a prior");
+    }
+    known.prior = domain.prior();
   }
 
   void note_condition(const OpenRow& row, Participant& participant) {
@@ -209,7 +269,7 @@ class TrialImport {
   }
 
   std::optional<Trial> trial_of(const OpenRow& row, TrialKind kind) {
-    Trial trial{.kind = kind, .correct = false, .component = {}, .half_spaces = {}, .line = row.line()};
+    Trial trial{.kind = kind, .correct = false, .component = {}, .half_spaces = {}, .prior = {}, .line = row.line()};
     if (kind == TrialKind::kTest || kind == TrialKind::kFinalTest) {
       const auto text = row.text("is_opt_response").value_or("");
       const auto verdict = verdict_of(text);
@@ -227,6 +287,10 @@ class TrialImport {
         complain(row.line(), "E0707",
                  "mdp_parameters is no JSON object with a list of normals, 2 to 8 whole numbers each, as "
                  "'constraints'");
+        return std::nullopt;
+      }
+      if (parameters.contains("prior") && !add_normals(parameters["prior"], trial.prior)) {
+        complain(row.line(), "E0707", "the prior in mdp_parameters is no list of normals, 2 to 8 whole numbers each");
         return std::nullopt;
       }
       if (parameters.contains("variable_filter")) trial.component = parameters["variable_filter"].dump();
@@ -281,24 +345,9 @@ class TrialImport {
     PersonLog log;
     log.id = name;
     log.type = participant.type;
-    log.model = model_of(key.second);
+    log.model = domains_.at(key.second).model;
     fill(log, participant, feedback);
     logs_.people.push_back(std::move(log));
-  }
-
-  // The people of a domain know beforehand that actions, the last feature, cost something.
-  std::size_t model_of(const std::string& domain) {
-    const auto known = num_features_.find(domain);
-    const std::size_t n = known == num_features_.end() ? 3 : known->second;
-    const auto same = std::find_if(logs_.models.begin(), logs_.models.end(),
-                                   [&](const KnownLearner& model) { return model.prior.dimension() == n; });
-    if (same != logs_.models.end()) return static_cast<std::size_t>(same - logs_.models.begin());
-    IntegerVector cost(n);
-    cost[n - 1] = -1;
-    KnownLearner model;
-    model.prior = Cone::intersection(std::vector{HalfSpace{cost}}).value();
-    logs_.models.push_back(std::move(model));
-    return logs_.models.size() - 1;
   }
 
   void fill(PersonLog& log, const Participant& participant, bool has_feedback) {
@@ -344,7 +393,7 @@ class TrialImport {
   std::filesystem::path path_;
   std::map<Key, Participant> participants_;
   std::map<std::string, std::size_t> usual_finals_;
-  std::map<std::string, std::size_t> num_features_;  // per domain, of its constraints
+  std::map<std::string, Knowledge> domains_;
   ResponseLogs logs_;
 };
 

@@ -235,7 +235,7 @@ KindsReport fit_kinds(const ResponseLogs& logs, const KindsOptions& options, Lea
     person.answered = log.answered;
     const auto& known = logs.models.at(log.model);
     const KindReplay replay{log, known, covers[log.model], options.slip};
-    const auto random = RandomStream{options.seed}.split("kinds").split(log.id);
+    const auto random = RandomStream{options.seed}.split("kinds").split(lessons_of(log));
     for (std::size_t k = 0; k < comparable.size(); ++k) {
       std::vector<double> likelihoods;
       for (const auto& point : points[k]) {

@@ -183,7 +183,7 @@ LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& g
   LikelihoodTable table{.grid = grid, .log_likelihood = {}, .standard_error = {}, .knowledge = {}};
   table.complete = for_each_index(num_tasks, options.parallel, [&](std::size_t task) {
     const auto& person = logs.people[task % num_people];
-    const auto random = RandomStream{options.seed}.split("fit").split(person.id).split(task / num_people);
+    const auto random = RandomStream{options.seed}.split("fit").split(lessons_of(person)).split(task / num_people);
     Replay replay{person, logs.models.at(person.model), logs.policy, grid, options.slip, random};
     replay.run(covers[person.model]);
     log_likelihood[task] = std::move(replay.log_likelihood);

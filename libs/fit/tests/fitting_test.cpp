@@ -123,11 +123,12 @@ TEST(Fitting, FindsThatLabelledTypesDiffer) {
     EXPECT_LE(type.median.confirm_scale, type.upper.confirm_scale);
     // Ten people who answer little: where the maximum is at an edge, it says so.
     const auto& best = type.fit.parameters;
-    const bool edge = best.ability_sd < 1.02 * kSmallestPopulation.ability_sd ||
-                      best.confirm_scale < 1.02 * kSmallestPopulation.confirm_scale ||
-                      best.confirm_scale > 0.98 * kLargestPopulation.confirm_scale ||
-                      best.correct_scale < 1.02 * kSmallestPopulation.correct_scale ||
-                      best.correct_scale > 0.98 * kLargestPopulation.correct_scale;
+    bool edge = false;
+    for (const auto parameter : {&PopulationParameters::ability_mean, &PopulationParameters::ability_sd,
+                                 &PopulationParameters::confirm_scale, &PopulationParameters::correct_scale}) {
+      edge = edge || best.*parameter < 1.02 * kSmallestPopulation.*parameter ||
+             best.*parameter > 0.98 * kLargestPopulation.*parameter;
+    }
     EXPECT_EQ(type.at_edge.empty(), !edge);
   }
   EXPECT_FALSE(report.why_estimates_differ.empty());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "domain_texts.hpp"
@@ -239,7 +240,8 @@ TEST(ImportLogs, RefusesWhatItDoesNotKnow) {
 // Rows of our own in the layout of the studies with one row per trial.
 constexpr const char* kHeader =
     "user_id,loop_condition,domain,interaction_type,iteration,is_opt_response,mdp_parameters\n";
-constexpr const char* kToll = R"("{""constraints"": [[[-1, 0, 2.0]]], ""variable_filter"": [0, 1, 0]}")";
+constexpr const char* kToll =
+    R"("{""constraints"": [[[-1, 0, 2.0]]], ""variable_filter"": [0, 1, 0], ""prior"": [0, 0, -1]}")";
 
 std::string row(const std::string& who, const std::string& condition, const std::string& what,
                 const std::string& right) {
@@ -310,6 +312,89 @@ TEST(Trials, CanBeFitted) {
   ASSERT_EQ(report.types.size(), 1u);
   EXPECT_EQ(report.types[0].name, "all");
   EXPECT_EQ(report.people.size(), 4u);
+}
+
+// Somebody who hears of mud, then of the recharge station, and the numbers of whose constraints stand in this order.
+std::string rows_of(const std::string& who, const std::array<std::size_t, 3>& order, std::size_t right) {
+  std::string text;
+  const auto add = [&](const std::string& what, std::array<int, 3> normal, const std::string& verdict) {
+    const auto in_order = [&](const std::array<int, 3>& v) {
+      return "[[" + std::to_string(v[order[0]]) + ", " + std::to_string(v[order[1]]) + ", " +
+             std::to_string(v[order[2]]) + "]]";
+    };
+    text += who + ",cl,at," + what + ",0," + verdict + ",\"{\"\"constraints\"\": " + in_order(normal) +
+            ", \"\"prior\"\": " + in_order({0, 0, -1}) + "}\"\n";
+  };
+  std::size_t test = 0;
+  for (const auto& normal : {std::array{-1, 0, 2}, std::array{1, 0, -4}, std::array{0, 1, 4}}) {
+    add("demo", normal, "");
+    add("diagnostic test", normal, (right >> test++ & 1) == 1 ? "1" : "0");
+    add("diagnostic feedback", normal, "");
+    add("final test", normal, (right >> test++ & 1) == 1 ? "1" : "0");
+  }
+  return text;
+}
+
+std::map<std::string, double> abilities(const FitReport& report) {
+  std::map<std::string, double> result{{"", report.types.at(0).median.ability_mean}};
+  for (const auto& person : report.people) result[person.id] = person.posterior.ability.mean;
+  return result;
+}
+
+// What people are called, in which files and in which order they come, decides nothing; nor does the order of features,
+// but for other random numbers.
+TEST(Trials, AreFittedWhateverTheirOrderNamesAndFiles) {
+  const testing::ScratchFolder folder;
+  const std::vector<std::size_t> answers{63, 42, 21, 62, 40, 31};
+  const auto fitted = [&](const std::vector<std::string>& texts) {
+    std::vector<fs::path> files;
+    for (const auto& text : texts)
+      files.push_back(folder.write("t" + std::to_string(files.size()) + ".csv", kHeader + text));
+    const auto logs = import_logs(files, AnswerDetail::kPath).logs;
+    EXPECT_EQ(note_ids(logs).count("W0708"), 0u);
+    const FitOptions options{.replicates = 32, .folds = 0, .num_abilities = 5, .num_gains = 2, .num_draws = 20};
+    return abilities(fit_learners(logs, options));
+  };
+  const auto text_of = [&](std::size_t from, std::size_t to, const std::array<std::size_t, 3>& order, bool renamed) {
+    std::string text;
+    for (std::size_t i = from; i < to; ++i)
+      text += rows_of(std::string(1, static_cast<char>(renamed ? 'z' - i : 'a' + i)), order, answers[i]);
+    return text;
+  };
+  const std::array<std::size_t, 3> usual{0, 1, 2}, step_first{2, 0, 1};
+  const auto as_is = fitted({text_of(0, 6, usual, false)});
+  const auto renamed = fitted({text_of(0, 6, usual, true)});
+  const auto split = fitted({text_of(3, 6, usual, false), text_of(0, 3, usual, false)});
+  const auto turned = fitted({text_of(0, 6, step_first, false)});
+  EXPECT_EQ(as_is.at(""), renamed.at(""));
+  EXPECT_EQ(as_is.at(""), split.at(""));
+  EXPECT_NEAR(as_is.at(""), turned.at(""), 0.02);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const auto who = std::string(1, static_cast<char>('a' + i)) + "/at";
+    EXPECT_EQ(as_is.at(who), renamed.at(std::string(1, static_cast<char>('z' - i)) + "/at")) << who;
+    EXPECT_EQ(as_is.at(who), split.at((i < 3 ? "2:" : "1:") + who)) << who;
+    EXPECT_NEAR(as_is.at(who), turned.at(who), 0.02) << who;
+  }
+}
+
+TEST(Trials, SayWhatPeopleKnowBeforehand) {
+  const testing::ScratchFolder folder;
+  const auto read = [&](const std::string& domain, const std::string& demo, const std::string& parameters = "") {
+    return import_trials(
+        folder.write("t.csv", kHeader + ("a,open," + domain + ",demo,0,,\"{\"\"constraints\"\": [" + demo + "]" +
+                                         parameters + "}\"\na,open," + domain + ",final test,0,1,\n")));
+  };
+  const auto given = read("at", "[2, -1, 0]", ", \"\"prior\"\": [[-1, 0, 0], [0, -1, 0]]");
+  const std::vector known{HalfSpace{IntegerVector{-1, 0, 0}}, HalfSpace{IntegerVector{0, -1, 0}}};
+  EXPECT_EQ(given.models.at(0).prior, *Cone::intersection(known));
+  EXPECT_EQ(note_ids(given), std::multiset<std::string>{});
+  EXPECT_EQ(note_ids(read("at", "[2, -1, 0]")), std::multiset<std::string>{"W0708"});  // the last, and that is said
+  EXPECT_EQ(note_ids(read("item-delivery", "[-1, 0, 2]")), std::multiset<std::string>{});
+  const auto fault = [&](const auto&... cells) { return fault_of([&] { static_cast<void>(read(cells...)); }); };
+  EXPECT_EQ(fault("item-delivery", "[2, -1, 0]"), "E0707 t.csv:2");  // not in the order of that domain
+  EXPECT_EQ(fault("at", "[2, -1, 0]", ", \"\"prior\"\": [[0.5, 0, 1]]"), "E0707 t.csv:2");
+  EXPECT_EQ(fault("at", "[2, -1, 0]", ", \"\"prior\"\": [[0, 1]]"), "E0707 t.csv:2");
+  EXPECT_EQ(fault("at", "[2, -1, 0]", ", \"\"prior\"\": [[1, 0, 0], [-1, 0, 0]]"), "E0707 t.csv:2");
 }
 
 TEST(Trials, NameRowAndFaultOfWhatCannotBeRead) {

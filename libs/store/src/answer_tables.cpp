@@ -133,12 +133,15 @@ struct AnswerTables : RoomExport {
 
   void write_trial(std::size_t seat, const Lesson& lesson, const char* type, std::optional<bool> correct,
                    const std::vector<HalfSpace>& constraints) const {
+    const auto num_features = study.spec.num_features;
     TrialRow row{.user_id = std::to_string(seat),
                  .group = id(),
                  .domain = study.atlas->domain().id(),
                  .kc_id = std::to_string(lesson.component + 1),
                  .interaction_type = type,
-                 .mdp_parameters = Json{{"constraints", to_json(constraints, study.spec.num_features)}}.dump()};
+                 .mdp_parameters = Json{{"constraints", to_json(constraints, num_features)},
+                                        {"prior", to_json(study.atlas->domain().prior(), num_features)}}
+                                       .dump()};
     if (correct) row.is_opt_response = *correct ? "1" : "0";
     write.add(tables.trials, row);
   }

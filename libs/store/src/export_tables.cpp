@@ -165,7 +165,9 @@ ExportTables::ExportTables(const SessionExportOptions& options)
       .column(&TrialRow::kc_id, {"kc_id", "Component, from 1."})
       .column(&TrialRow::interaction_type, {"interaction_type", "demo, diagnostic test or diagnostic feedback."})
       .column(&TrialRow::is_opt_response, {"is_opt_response", "1 or 0 for tests."})
-      .column(&TrialRow::mdp_parameters, {"mdp_parameters", "JSON with the constraints, normals of half-spaces."});
+      .column(&TrialRow::mdp_parameters,
+              {"mdp_parameters",
+               "JSON with the constraints and the prior, what people know beforehand, normals of half-spaces."});
 
   beliefs.column(&BeliefRow::session, kSessionWords)
       .column(&BeliefRow::period, kPeriodWords)

@@ -57,6 +57,10 @@ struct PersonLog {
   std::optional<TrueParameters> truth{};  ///< If known; for recovery() only, no estimate depends on it.
 };
 
+/// What a person was taught, as text: the same for people of any name, in any order of the files, and whatever they
+/// answered, so that the probabilities of all answers sum to 1. Random streams of a person are addressed by it.
+[[nodiscard]] std::string lessons_of(const PersonLog& person);
+
 /// How the answers of people were told apart where no tables say which paths are best for somebody; see
 /// find_answer_regions().
 struct PathSample {
