@@ -63,7 +63,7 @@ class Verdict(NamedTuple):
 
     correct: bool
     regret: float
-    """Return that the answer loses, >= 0; weights at length 1."""
+    """Return that the answer loses, >= 0, in the units of the domain file's weights."""
     answered: bool
     half_spaces: list[HalfSpace]
     """What the answer says about what the person believes."""

@@ -2,6 +2,7 @@
 
 #include "arrays.hpp"
 #include "domain.hpp"
+#include "kith/domains/file_units.hpp"
 #include "kith/explain/words.hpp"
 
 namespace kith::python {
@@ -54,12 +55,13 @@ py::object to_python(const Atlas& atlas, const Lesson& lesson) {
                           lesson.area_sr, lesson.gain);
 }
 
-py::object to_python(const Feedback& feedback) {
+py::object to_python(const Atlas& atlas, const Feedback& feedback) {
   py::list verdicts;
   for (const auto& member : feedback.verdicts) {
     py::list list;
     for (const auto& verdict : member)
-      list.append(record("Verdict")(verdict.correct, verdict.regret, verdict.answered, to_list(verdict.half_spaces)));
+      list.append(record("Verdict")(verdict.correct, in_file_units(atlas.domain().weights(), verdict.regret),
+                                    verdict.answered, to_list(verdict.half_spaces)));
     verdicts.append(list);
   }
   return record("Feedback")(verdicts, flags(feedback.all_correct), to_list(feedback.half_spaces),
@@ -74,7 +76,7 @@ py::object to_python(const Atlas& atlas, const PastPeriod& period) {
       list.append(answer ? py::object{counts_to_tuple(atlas.domain(), *answer)} : py::none());
     answers.append(list);
   }
-  return record("Period")(to_python(atlas, period.lesson), answers, to_python(period.feedback));
+  return record("Period")(to_python(atlas, period.lesson), answers, to_python(atlas, period.feedback));
 }
 
 Unit picked_unit(TeachingCache& cache, std::span<const HalfSpace> taught_region, std::span<const StartIndex> demos,

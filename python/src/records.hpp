@@ -12,7 +12,7 @@
 namespace kith::python {
 
 [[nodiscard]] py::object to_python(const Atlas& atlas, const Lesson& lesson);
-[[nodiscard]] py::object to_python(const Feedback& feedback);
+[[nodiscard]] py::object to_python(const Atlas& atlas, const Feedback& feedback);
 [[nodiscard]] py::object to_python(const Atlas& atlas, const PastPeriod& period);
 
 /// The unit of these demonstrations, in this order.

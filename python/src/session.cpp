@@ -309,11 +309,13 @@ void bind_session(py::module_& module) {
       .def("answer", &answer, py::arg("member"), py::arg("answers"))
       .def("close_tests",
            [](OwnSession& self) {
-             return to_python(self.use([](Session& taught) -> Feedback { return taught.close_tests(); }));
+             return to_python(*self.domain()->atlas(),
+                              self.use([](Session& taught) -> Feedback { return taught.close_tests(); }));
            })
       .def("give_feedback",
            [](OwnSession& self) {
-             return to_python(self.use([](Session& taught) -> Feedback { return taught.give_feedback(); }));
+             return to_python(*self.domain()->atlas(),
+                              self.use([](Session& taught) -> Feedback { return taught.give_feedback(); }));
            })
       .def("leave", member_event(&Session::leave), py::arg("member"))
       .def("come_back", member_event(&Session::come_back), py::arg("member"))

@@ -1,11 +1,14 @@
 #include "kith/domains/judgement.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "kith/core/error.hpp"
+#include "kith/domains/file_units.hpp"
 
 namespace kith {
 namespace {
@@ -42,6 +45,17 @@ PathJudgement judge_path(const Domain& domain, const IntegerVector& robot, const
   result.regret = weights.return_of(result.loss) / scale;
   result.raw_regret = dot(result.loss, weights.raw) / scale;
   return result;
+}
+
+double in_file_units(const RewardWeights& weights, double value) {
+  if (weights.raw.empty()) return value;
+  double length = 0.0;
+  for (const double x : weights.raw) length += weights.norm == WeightNorm::kL1 ? std::abs(x) : x * x;
+  if (weights.norm == WeightNorm::kL2) length = std::sqrt(length);
+  std::array<char, 32> digits{};
+  const auto written = std::to_chars(digits.begin(), digits.end(), value * length, std::chars_format::general, 15);
+  std::from_chars(digits.begin(), written.ptr, value);
+  return value;
 }
 
 const char* name_of(ActionsOutcome outcome) noexcept {

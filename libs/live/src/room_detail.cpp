@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "kith/domains/file_units.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/misconception.hpp"
 #include "kith/explain/words.hpp"
@@ -126,7 +127,7 @@ class RoomDetailPage {
                       {"period", answer.period},
                       {"test", answer.test},
                       {"right", answer.right},
-                      {"regret", answer.regret},
+                      {"regret", in_file_units(domain_.weights(), answer.regret)},
                       {"ms", answer.ms},
                       {"stopped_short", answer.stopped_short}});
       if (!answer.right_in_the_end) continue;

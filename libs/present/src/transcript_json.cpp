@@ -1,4 +1,5 @@
 #include "kith/present/transcript_json.hpp"
+#include "kith/domains/file_units.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -174,7 +175,7 @@ class Converter {
     Json json{{"member", members_[i]}, {"correct", verdict.correct}};
     if (t < response.answers.size() && response.answers[t]) {
       const auto& counts = *response.answers[t];
-      json["regret"] = verdict.regret;
+      json["regret"] = in_file_units(domain_.weights(), verdict.regret);
       json["features"] = kith::to_json(counts);
       const auto path = response.weights
                             ? path_of_answer(atlas_, period.lesson.tests[t].demo, counts, *response.weights)
@@ -184,8 +185,9 @@ class Converter {
     json["shows"] = kith::to_json(verdict.half_spaces, d_);
     if (i < period.revised.size() && !period.revised[i].empty() && period.revised[i][t]) {
       const auto& last = period.feedback.revised[i][t];
-      json["revised"] = {
-          {"correct", last.correct}, {"regret", last.regret}, {"features", kith::to_json(*period.revised[i][t])}};
+      json["revised"] = {{"correct", last.correct},
+                         {"regret", in_file_units(domain_.weights(), last.regret)},
+                         {"features", kith::to_json(*period.revised[i][t])}};
     }
     return json;
   }

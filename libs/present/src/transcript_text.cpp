@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kith/domains/file_units.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/picture.hpp"
 #include "kith/present/transcript.hpp"
@@ -209,8 +210,9 @@ class TranscriptWriter {
                      counts_text(domain_, *answer)));
   }
 
-  static std::string judged(const Verdict& verdict) {
-    return verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret);
+  [[nodiscard]] std::string judged(const Verdict& verdict) const {
+    if (verdict.correct) return "correct";
+    return fmt::format("wrong (regret {:.4g})", in_file_units(domain_.weights(), verdict.regret));
   }
 
   void answer(const TranscriptPeriod& period, std::size_t t, std::size_t i) {

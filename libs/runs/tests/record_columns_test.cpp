@@ -55,6 +55,7 @@ class Marks {
   }
   void derived(auto /*function*/, const ColumnWords& /*words*/, const RecordColumn& /*options*/ = {}) {}
   void kept(std::size_t Record::*member, int /*since*/ = 0) { mark(record_.*member); }
+  void kept(std::optional<double> Record::*member, int /*since*/ = 0) { mark(record_.*member); }
   template <typename Row>
   void kept(std::vector<Row> Record::*member, int /*since*/ = 0) {
     Row row;
@@ -191,6 +192,8 @@ TEST(RecordColumns, EveryLineIsACellOfItsTable) {
 TEST(RecordColumns, EveryLineIsAnEntryOfTheCodebook) {
   const MarkedTeam marked;
   for (const auto& table : study_tables(marked.study)) {
+    for (const auto& column : table.columns)
+      EXPECT_TRUE(column.type != ColumnType::kReal || !column.unit.empty()) << table.file << ": " << column.name;
     for (const auto& [name, text] : marked.expected.count(table.file) != 0 ? marked.expected.at(table.file) : Cells{}) {
       const auto is_it = [&, &name = name](const Column& column) { return column.name == name; };
       const auto found = std::find_if(table.columns.begin(), table.columns.end(), is_it);

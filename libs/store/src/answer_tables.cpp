@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "kith/domains/file_units.hpp"
 #include "kith/present/json.hpp"
 #include "room_export.hpp"
 
@@ -37,7 +38,7 @@ struct AnswerTables : RoomExport {
       }
       if (judged != nullptr) {
         row.correct = judged->correct;
-        if (judged->answered) row.regret = judged->regret;
+        if (judged->answered) row.regret = in_file_units(study.atlas->domain().weights(), judged->regret);
       }
       write.add(tables.tests, row);
       if (answer != nullptr) write_keys(*answer);

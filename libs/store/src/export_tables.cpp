@@ -36,11 +36,13 @@ void declare(TableOf<SessionRow>& table) {
       .column(&R::periods, count(kPeriods, "Completed interaction periods."))
       .column(&R::demonstrations, count(kDemonstrations, "Demonstrations shown in completed periods."))
       .column(&R::tests, count(kTests, "Tests asked in completed periods, per member."))
-      .column(&R::share_right, {kShareRight, "Share of the tests of completed periods that were answered rightly."})
+      .column(&R::share_right,
+              {kShareRight, "Share of the tests of completed periods that were answered rightly.", "share"})
       .column(&R::components_learned, count("components_learned", "Components that everybody learned."))
       .column(&R::knowledge, {kKnowledge,
                               "Mean over members of what they know in the end, see participants.csv; missing if nobody "
-                              "had a lesson."})
+                              "had a lesson.",
+                              "share"})
       .column(&R::digest, {"digest", "Digest of the room's final state, equal whenever the room is replayed."});
 }
 
@@ -63,14 +65,16 @@ void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options
       .column(&R::seconds_away, {"seconds_away", "How long in total.", "s"})
       .column(&R::tests, count(kTests, "Tests asked in completed periods, those not answered in time included."))
       .column(&R::right, count(kRight, "Of them, answered rightly."))
-      .column(&R::share_right, {kShareRight, "right / tests; missing without tests."})
+      .column(&R::share_right, {kShareRight, "right / tests; missing without tests.", "share"})
       .column(&R::knowledge, {kKnowledge,
                               "How often the person is expected to get all of a component right, as a mean over the "
-                              "components that they were taught: what 'kith audit' says of their answers."})
-      .column(&R::p_bec, {kBelief, "The teacher's final belief that the member knows the robot's policy."})
+                              "components that they were taught: what 'kith audit' says of their answers.",
+                              "share"})
+      .column(&R::p_bec, {kBelief, "The teacher's final belief that the member knows the robot's policy.", "share"})
       .column(&R::estimate, {"estimate",
                              "Estimate of ability from the screening, the expected share of right answers; missing "
-                             "without a finished screening."});
+                             "without a finished screening.",
+                             "share"});
   if (!options.with_names) return;
   table.column(&R::name, {"name", "Name that the person gave."})
       .column(&R::query, {"query", "Parameters of the recruitment platform, as JSON."})
@@ -89,7 +93,7 @@ void declare(TableOf<PeriodRow>& table) {
       .column(&R::n_active, count(kActive, "Members who took part in the tests."))
       .column(&R::all_right,
               {"all_right", "Whether all of them answered all tests rightly; missing if the period was not finished."})
-      .column(&R::gain, {"gain", "log(area of the taught region before / after the lesson)."})
+      .column(&R::gain, {"gain", "log(area of the taught region before / after the lesson).", "nat"})
       .column(&R::area_sr, {kAreaSr, "Solid angle of what the lesson teaches.", "sr"})
       .column(&R::digest, {"digest", "Digest of lesson and beliefs, compared in every replay."});
 }
@@ -115,7 +119,8 @@ void declare(TableOf<TestRow>& table, const SessionExportOptions& options) {
               {kCorrect, "Whether the path is as good as the robot's; missing if the period was not finished."})
       .column(&R::regret, {kRegret,
                            "Return of the robot's path minus that of the answer; missing if the person stopped short "
-                           "of the end."})
+                           "of the end.",
+                           kRewardUnit})
       .column(&R::rt, {"rt", "Time from the test appearing to submitting, as the browser measured it.", "s"})
       .column(&R::at_ms, {"at_ms", "When the answer was saved.", kMilliseconds});
 }
@@ -176,7 +181,8 @@ ExportTables::ExportTables(const SessionExportOptions& options)
       .column(&BeliefRow::member, {kMember, "Place in the group, from 1; missing for combined beliefs."})
       .column(&BeliefRow::p_bec, {kBelief,
                                   "Share of the belief in the set of rewards that lead to the robot's policy: the "
-                                  "teacher's estimate of what the member knows."});
+                                  "teacher's estimate of what the member knows.",
+                                  "share"});
 
   events.column(&EventRow::session, kSessionWords)
       .column(&EventRow::seq, {"seq", "Number within the room, from 1."})

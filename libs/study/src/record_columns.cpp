@@ -27,9 +27,12 @@ bool has_trait(const LearnerModel& model, std::string_view name) {
   return std::any_of(model.traits.begin(), model.traits.end(), [&](const auto& trait) { return trait.name == name; });
 }
 
-Column real_column(std::string name, std::string description, bool required = true) {
-  return {
-      .name = std::move(name), .type = ColumnType::kReal, .description = std::move(description), .required = required};
+Column real_column(std::string name, std::string description, const char* unit, bool required = true) {
+  return {.name = std::move(name),
+          .type = ColumnType::kReal,
+          .description = std::move(description),
+          .unit = unit,
+          .required = required};
 }
 
 }  // namespace
@@ -67,7 +70,8 @@ std::vector<Column> rule_columns(const Study& study) {
   for (const auto& rule : study.variants.front().teaching.rules) {
     const std::string name{rule.name};
     columns.push_back(real_column(std::string{columns::kBelief} + "_" + name,
-                                  "Mass of the teacher's " + name + " belief in the policy's class, afterwards."));
+                                  "Mass of the teacher's " + name + " belief in the policy's class, afterwards.",
+                                  "share"));
   }
   return columns;
 }
@@ -81,7 +85,7 @@ std::vector<Column> trait_columns(const Study& study) {
       if (std::any_of(columns.begin(), columns.end(), is_same)) continue;
       const bool have_all = std::all_of(types.begin(), types.end(),
                                         [&](const LearnerType* other) { return has_trait(*other->model, trait.name); });
-      columns.push_back(real_column(std::string{trait.name}, std::string{trait.description}, have_all));
+      columns.push_back(real_column(std::string{trait.name}, std::string{trait.description}, "none", have_all));
     }
   }
   return columns;
@@ -94,7 +98,7 @@ std::vector<Column> kind_columns(const Study& study) {
     columns.push_back(real_column("p_kind_" + kind,
                                   "Posterior probability that the member learns and answers as the learner model '" +
                                       kind + "'. In the row of the person only.",
-                                  false));
+                                  "share", false));
   }
   return columns;
 }
@@ -104,7 +108,8 @@ std::vector<Column> forecast_done_columns(const Study& /*study*/) {
   for (const auto* name : columns::kForecastDone) {
     const auto periods = std::to_string(columns.size() + 1);
     columns.push_back(real_column(
-        name, "Probability that the team is done after at most " + periods + " more, as expected after this period."));
+        name, "Probability that the team is done after at most " + periods + " more, as expected after this period.",
+        "share"));
   }
   return columns;
 }

@@ -8,6 +8,7 @@ namespace kith {
 void take_domain(StudySpec& spec, const Domain& domain) {
   spec.num_features = domain.num_features();
   spec.count_scale = domain.count_scale();
+  spec.weights = domain.weights();
   spec.world_names.clear();
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) spec.world_names.push_back(domain.world_name(m));
   const auto is_empty = [](const std::string& name) { return name.empty(); };

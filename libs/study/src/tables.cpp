@@ -139,7 +139,7 @@ class RecordColumns {
         if (found == traits.end()) return std::nullopt;
         return (row.record.*member).at(static_cast<std::size_t>(found - traits.begin()));
       };
-      table_.column(value, {column.name, column.description}, {.required = column.required});
+      table_.column(value, {column.name, column.description, column.unit}, {.required = column.required});
     }
   }
 
@@ -220,7 +220,7 @@ void add_directions(TableOf<ParticleRow>& table, std::size_t num_features) {
         is_in_space ? kWords.at(k) : "Entry " + number + " of a direction of reward weights, at length 1.";
     table.column(
         [k](const ParticleRow& row) { return row.belief.points[k * row.belief.weights.size() + row.particle]; },
-        {name, words});
+        {name, words, "none"});
   }
 }
 
@@ -235,7 +235,7 @@ TableOf<ParticleRow> particle_table(const Study& study) {
   table.column([](const Row& row) { return row.particle + 1; }, {"particle", "Number of the particle, from 1."});
   add_directions(table, study.variants.front().num_features);
   table.column([](const Row& row) { return row.belief.weights[row.particle]; },
-               {"weight", "Weight of the particle; those of a belief sum to 1."});
+               {"weight", "Weight of the particle; those of a belief sum to 1.", "share"});
   return table;
 }
 

@@ -89,6 +89,71 @@ Study study_for(const Domain& domain) {
   return {{spec}};
 }
 
+// A header and the rows below it.
+std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines{csv};
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells{line};
+    for (rows.emplace_back(); std::getline(cells, line, ',');) rows.back().push_back(line);
+  }
+  return rows;
+}
+
+using Tables = std::map<std::string, std::string, std::less<>>;
+
+Tables tables_of(const Study& study, const std::vector<TeamRecord>& teams) {
+  Tables tables;
+  write_study_tables(study, teams,
+                     [&](std::string_view file, std::string_view piece) { tables[std::string{file}] += piece; });
+  return tables;
+}
+
+// The cells of a row by the names of their columns.
+using Row = std::map<std::string, std::string>;
+std::vector<Row> rows_of(const std::string& csv) {
+  const auto cells = cells_of(csv);
+  std::vector<Row> rows;
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    auto& row = rows.emplace_back();
+    for (std::size_t k = 0; k < cells[i].size(); ++k) row[cells[0][k]] = cells[i][k];
+  }
+  return rows;
+}
+
+// What the tables say of answers and knowledge, computed again from the domain and what else the tables say.
+void expect_tables_recomputed(const Atlas& atlas, const Tables& tables) {
+  const auto& domain = atlas.domain();
+  const auto scale = static_cast<double>(domain.count_scale());
+  for (const auto& row : rows_of(tables.at("responses.csv"))) {
+    if (row.at("answer").empty()) {
+      EXPECT_EQ(row.at("regret"), "");
+      continue;
+    }
+    const StartId id{MdpIndex{std::stoul(row.at("mdp"))}, StateIndex{std::stoul(row.at("start"))}};
+    const auto& robot = atlas.feature_counts(atlas.index(id));
+    std::istringstream answer{row.at("answer")};
+    double lost = 0.0;
+    for (std::size_t k = 0; k < domain.num_features(); ++k) {
+      double count = 0.0;
+      answer >> count;
+      lost += domain.weights().raw[k] * (static_cast<double>(robot[k]) / scale - count);
+    }
+    const double said = std::stod(row.at("regret"));
+    EXPECT_NEAR(said, lost, row.at("correct") == "true" ? 1e-4 : 1e-9) << "in the units of the domain file";
+    EXPECT_EQ(row.at("correct") == "true", said == 0.0);
+  }
+  std::map<std::string, std::vector<double>> known;  // by team
+  for (const auto& row : rows_of(tables.at("learners.csv")))
+    known[row.at("team")].push_back(std::stod(row.at("p_bec")));
+  for (const auto& row : rows_of(tables.at("teams.csv"))) {
+    const auto& members = known.at(row.at("team"));
+    double mean = 0.0;
+    for (const double mass : members) mean += mass / static_cast<double>(members.size());
+    EXPECT_NEAR(std::stod(row.at("knowledge")), mean, 1e-12);
+  }
+}
+
 void expect_taught(const Atlas& atlas) {
   const auto study = study_for(atlas.domain());
   const auto teams = run_teams(atlas, study, team_addresses(study)).teams;
@@ -110,6 +175,7 @@ void expect_taught(const Atlas& atlas) {
   }
   // Far more than somebody knows who knows the prior only.
   EXPECT_GT(knowledge, 3.0 * atlas.policy_bec_area_sr() / atlas.prior_cone().solid_angle());
+  expect_tables_recomputed(atlas, tables_of(study, teams));
   // The same again on any number of threads, which share what they know of policies.
   for (const std::size_t threads : {1u, 2u, 8u}) {
     RunOptions options;
@@ -144,17 +210,6 @@ TEST(AnyDomain, DiscountedOnesAreTaught) {
   expect_taught(Atlas{domain_from(text.replace(text.find(from), from.size(), "discount = 0.97"))});
 }
 
-// A header and the rows below it.
-std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines{csv};
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream cells{line};
-    for (rows.emplace_back(); std::getline(cells, line, ',');) rows.back().push_back(line);
-  }
-  return rows;
-}
-
 TEST(AnyDomain, TablesNameWorldsThatHaveNames) {
   const std::string listed =
       "[[family.world]]\nname = \"all clear\"\npresent = []\n"
@@ -164,9 +219,7 @@ TEST(AnyDomain, TablesNameWorldsThatHaveNames) {
     const Atlas atlas{domain_from(kFourFeatures + (has_names ? listed : ""))};
     const auto study = study_for(atlas.domain());
     const auto teams = run_teams(atlas, study, team_addresses(study)).teams;
-    std::map<std::string, std::string, std::less<>> tables;
-    write_study_tables(study, teams,
-                       [&](std::string_view file, std::string_view piece) { tables[std::string{file}] += piece; });
+    const auto tables = tables_of(study, teams);
     for (const auto* file : {"responses.csv", "demonstrations.csv"}) {
       const auto rows = cells_of(tables.at(file));
       ASSERT_GT(rows.size(), 1u);

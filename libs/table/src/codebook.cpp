@@ -35,6 +35,13 @@ Column column_of(const nlohmann::json& entry, const std::string& file) {
   return column;
 }
 
+// What is not measured is counted or has no unit; of numbers with a fraction nobody can know.
+nlohmann::ordered_json unit_of(const Column& column) {
+  if (!column.unit.empty()) return column.unit;
+  if (column.type == ColumnType::kReal) return nullptr;
+  return column.kind == ColumnKind::kCount ? "count" : "none";
+}
+
 }  // namespace
 
 std::vector<TableDescription> read_codebook(std::string_view text, const std::string& file) {
@@ -64,7 +71,7 @@ std::string codebook(std::span<const TableDescription> tables, const std::string
     for (const Column& column : table.columns) {
       columns.push_back({{"name", column.name},
                          {"type", to_string(column.type)},
-                         {"unit", column.unit.empty() ? Json{} : Json(column.unit)},
+                         {"unit", unit_of(column)},
                          {"required", column.required},
                          {"description", column.description}});
       if (column.kind != ColumnKind::kUnspecified) columns.back()["kind"] = to_string(column.kind);

@@ -26,7 +26,7 @@ TEST(Codebook, DescribesEveryColumnOfEveryTable) {
   const auto& columns = document.at("tables")[0].at("columns");
   EXPECT_EQ(columns[0], nlohmann::json::parse(R"({"name": "area_sr", "type": "real", "unit": "sr", "required": true,
                                                   "description": "says \"area\""})"));
-  EXPECT_EQ(columns[1], nlohmann::json::parse(R"({"name": "status", "type": "text", "unit": null, "required": false,
+  EXPECT_EQ(columns[1], nlohmann::json::parse(R"({"name": "status", "type": "text", "unit": "none", "required": false,
                                                   "description": "how it ended"})"));
   EXPECT_TRUE(document.at("tables")[1].at("columns").is_array());
   EXPECT_EQ(codebook(tables).back(), '\n');
@@ -45,9 +45,9 @@ TEST(Codebook, IsReadAsItWasWritten) {
       {.file = "t.csv",
        .description = "d",
        .columns = {{.name = "a", .type = ColumnType::kReal, .description = "x", .unit = "sr", .required = true},
-                   {.name = "b", .kind = ColumnKind::kOrdinal},
-                   {.name = "c", .type = ColumnType::kInteger, .kind = ColumnKind::kCount},
-                   {.name = "d", .type = ColumnType::kBoolean, .kind = ColumnKind::kNumber}}}};
+                   {.name = "b", .unit = "none", .kind = ColumnKind::kOrdinal},
+                   {.name = "c", .type = ColumnType::kInteger, .unit = "count", .kind = ColumnKind::kCount},
+                   {.name = "d", .type = ColumnType::kBoolean, .unit = "none", .kind = ColumnKind::kNumber}}}};
   const auto read = read_codebook(codebook(tables, "run"), "codebook.json");
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read[0].file, "t.csv");

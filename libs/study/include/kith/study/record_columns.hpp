@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kith/domains/file_units.hpp"
 #include "kith/study/records.hpp"
 #include "kith/study/study.hpp"
 #include "kith/table/column_names.hpp"
@@ -58,6 +59,8 @@ namespace columns {
 template <typename Record>
 struct Declared {};
 
+/// What returns and regrets are counted in.
+inline constexpr auto* kRewardUnit = "reward of the domain file";
 inline constexpr ColumnWords kOfPeriod{kPeriod, "Number of the period, from 1; for the baseline within the member."};
 inline constexpr ColumnWords kOfComponent{kComponent, "Number of the knowledge component, from 1."};
 inline constexpr auto kOfMember = identifier(kMember, "Number of the member, from 1.");
@@ -78,20 +81,19 @@ void declare(Fields& fields, Declared<LearnerRecord>) {
   fields.column(&R::member, kOfMember);
   fields.column(&R::type, kOfType);
   fields.traits(&R::traits);
-  fields.column(&R::p_bec, {kBelief, "Mass of the final belief in the policy's behaviour equivalence class."});
+  fields.column(&R::p_bec, {kBelief, "Mass of the final belief in the policy's behaviour equivalence class.", "share"});
   fields.column(&R::periods, count(kPeriods, "Periods the member took part in."));
   fields.column(&R::tests, count(kTests, "Tests the member was asked."));
-  fields.column(&R::correct, {kCorrect, "Tests answered correctly."});
-  fields.column(&R::exam_share_right,
-                measure(kExamShareRight, "Share of all starts where the member predicts the robot, at the end."),
-                {.when = has_exam});
-  fields.column(&R::exam_regret,
-                measure(kExamRegret, "What these predictions lose, in the units of the domain file's weights."),
-                {.when = has_exam});
+  fields.column(&R::correct, {kCorrect, "Tests answered correctly.", "count"});
+  fields.column(
+      &R::exam_share_right,
+      measure(kExamShareRight, "Share of all starts where the member predicts the robot, at the end.", "share"),
+      {.when = has_exam});
+  fields.column(&R::exam_regret, measure(kExamRegret, "What these predictions lose.", kRewardUnit), {.when = has_exam});
   fields.column(&R::exam_questions,
-                {"exam_questions", "Questions of the exam about starts that were neither shown nor tested."},
+                {"exam_questions", "Questions of the exam about starts that were neither shown nor tested.", "count"},
                 {.when = has_exam});
-  fields.column(&R::exam_correct, {"exam_correct", "Of these, answered correctly."}, {.when = has_exam});
+  fields.column(&R::exam_correct, {"exam_correct", "Of these, answered correctly.", "count"}, {.when = has_exam});
 }
 
 template <typename Fields>
@@ -105,13 +107,13 @@ void declare(Fields& fields, Declared<ExamRecord>) {
   fields.column(&R::member, kOfMember);
   fields.column(&R::type, kOfType);
   fields.column(&R::share_right,
-                measure(kShareRight, "Expected share of the starts where the member predicts the robot."));
-  fields.column(&R::regret, measure(kRegret,
-                                    "Expected loss of the member's predictions against the robot's paths, in the units "
-                                    "of the domain file's weights."));
+                measure(kShareRight, "Expected share of the starts where the member predicts the robot.", "share"));
+  fields.column(&R::regret,
+                measure(kRegret, "Expected loss of the member's predictions against the robot's paths.", kRewardUnit));
   fields.column(&R::p_bec, {kBelief,
                             "Mass of the member's belief in the policy's behaviour equivalence class; for all starts "
-                            "only."});
+                            "only.",
+                            "share"});
 }
 
 template <typename Fields>
@@ -125,20 +127,25 @@ void declare(Fields& fields, Declared<EstimateRecord>) {
   fields.column(&R::ability,
                 measure(kAbility,
                         "True ability with which the member learns when a component begins, after ability_scale. In "
-                        "the row of the person only."));
+                        "the row of the person only.",
+                        "none"));
   fields.column(
       &R::ability_mean,
-      measure(kAbilityMean, "The teacher's estimate of this ability: posterior mean. In the row of the person only."));
+      measure(kAbilityMean, "The teacher's estimate of this ability: posterior mean. In the row of the person only.",
+              "none"));
   fields.column(&R::ability_low, measure(kAbilityLow,
                                          "Lower limit of the central 80 % of the posterior. In the row of the person "
-                                         "only."));
+                                         "only.",
+                                         "none"));
   fields.column(&R::ability_high, measure(kAbilityHigh,
                                           "Upper limit of the central 80 % of the posterior. In the row of the person "
-                                          "only."));
+                                          "only.",
+                                          "none"));
   fields.column(&R::p_proficient,
                 measure("p_proficient",
                         "Posterior probability that the ability is at least record.proficient_ability. In the row of "
-                        "the person only."));
+                        "the person only.",
+                        "share"));
   fields.derived(
       [](const R& record) {
         return record.p_proficient ? std::optional{proficiency_word(*record.p_proficient)} : std::nullopt;
@@ -148,16 +155,20 @@ void declare(Fields& fields, Declared<EstimateRecord>) {
        "In the row of the person only."});
   fields.column(&R::p_knew, measure("p_knew",
                                     "Posterior probability that the member knew the component before the first lesson; "
-                                    "with teacher.hypotheses = \"known-components\". In the rows of components only."));
+                                    "with teacher.hypotheses = \"known-components\". In the rows of components only.",
+                                    "share"));
   fields.column(&R::knew, measure("knew",
                                   "Mass of the member's belief before the first lesson in the component's constraints; "
-                                  "where p_knew is. In the rows of components only."));
+                                  "where p_knew is. In the rows of components only.",
+                                  "share"));
   fields.column(&R::p_right, measure("p_right",
                                      "Predicted probability that the member answers a random test of the component "
-                                     "correctly. In the rows of components only."));
+                                     "correctly. In the rows of components only.",
+                                     "share"));
   fields.column(&R::right, measure("right",
                                    "The same probability under the member's own belief. In the rows of components "
-                                   "only."));
+                                   "only.",
+                                   "share"));
   fields.columns(&R::p_kinds, kind_columns, {.since = 10});
   fields.column(&R::kind,
                 {"kind",
@@ -169,7 +180,8 @@ void declare(Fields& fields, Declared<EstimateRecord>) {
 template <typename Fields>
 void declare(Fields& fields, Declared<PeriodForecast>) {
   using R = PeriodForecast;
-  fields.column(&R::periods_left, measure("forecast_periods_left", "Periods left, as expected after this one: mean."));
+  fields.column(&R::periods_left,
+                measure("forecast_periods_left", "Periods left, as expected after this one: mean.", "periods"));
   fields.columns(&R::done_within, forecast_done_columns);
 }
 
@@ -178,8 +190,9 @@ void declare(Fields& fields, Declared<PeriodMastery>) {
   using R = PeriodMastery;
   fields.column(&R::predicted, measure(kPredictedMastery,
                                        "Predicted probability that all members who took part answer a random "
-                                       "test of the component correctly, after the feedback."));
-  fields.column(&R::actual, measure(kMastery, "The same probability under the members' own beliefs."));
+                                       "test of the component correctly, after the feedback.",
+                                       "share"));
+  fields.column(&R::actual, measure(kMastery, "The same probability under the members' own beliefs.", "share"));
 }
 
 template <typename Fields>
@@ -201,16 +214,19 @@ void declare(Fields& fields, Declared<PeriodRecord>) {
                                       "sr"});
   fields.column(&R::tests, count(kTests, "Tests asked of every member."));
   fields.column(&R::all_correct, {"all_correct", "Whether every member answered every test correctly."});
-  fields.column(&R::excluded, {"excluded", "Members left out of the common belief because their answers conflict."});
-  fields.column(&R::untested, {"untested", "Taught constraints that nothing can test."});
-  fields.column(&R::tests_demonstrated,
-                {"tests_demonstrated",
-                 "Tests whose start was demonstrated in this period or before, since no other start tests the same."},
-                {.since = 11});
+  fields.column(&R::excluded,
+                {"excluded", "Members left out of the common belief because their answers conflict.", "count"});
+  fields.column(&R::untested, {"untested", "Taught constraints that nothing can test.", "count"});
+  fields.column(
+      &R::tests_demonstrated,
+      {"tests_demonstrated",
+       "Tests whose start was demonstrated in this period or before, since no other start tests the same.", "count"},
+      {.since = 11});
   fields.column(&R::gain, {"gain",
                            "Logarithm of the area of what was learned before (the prior and the components learned) "
-                           "over running_area_sr; 0 if a lesson is shown again."});
-  fields.derived(&R::members, {kMembers, "Members who took part."}, {.when = has_costs});
+                           "over running_area_sr; 0 if a lesson is shown again.",
+                           "nat"});
+  fields.derived(&R::members, {kMembers, "Members who took part.", "count"}, {.when = has_costs});
   fields.part(&R::forecast, {.when = has_forecasts});
   fields.part(&R::mastery, {.when = has_estimates});
   fields.columns(&R::p_bec, rule_columns);
@@ -251,8 +267,13 @@ void declare(Fields& fields, Declared<ResponseRecord>) {
   fields.derived(&name_of_world<R>, kOfWorld, {.when = has_world_names});
   fields.column(&R::start, kOfStart);
   fields.column(&R::correct, {kCorrect, "Whether the answer is as good as the robot's path."});
-  fields.column(&R::regret,
-                {kRegret, "Return of the robot's path minus that of the answer; missing without an answer."});
+  fields.kept(&R::regret);  // with weights of length 1
+  fields.derived(
+      [](const R& record, const Study& study) {
+        const auto& weights = study.variants.front().weights;
+        return record.regret ? std::optional{in_file_units(weights, *record.regret)} : std::nullopt;
+      },
+      {kRegret, "Return of the robot's path minus that of the answer; missing without an answer.", kRewardUnit});
   fields.column(
       &R::answer,
       {kAnswer, "Feature counts of the answer, or expectations of them, separated by blanks; missing without one."});
@@ -284,18 +305,20 @@ void declare(Fields& fields, Declared<ProgressRecord>) {
   fields.column(&R::component, kOfComponent);
   fields.column(&R::member, kOfMember);
   fields.column(&R::type, kOfType);
-  fields.column(&R::ability, {kAbility, "Ability while watching the demonstrations, before ability_scale."},
+  fields.column(&R::ability, {kAbility, "Ability while watching the demonstrations, before ability_scale.", "none"},
                 {.required = all_have_ability});
   fields.column(&R::p_bec, {kBelief,
                             "Mass of the member's own belief in the policy's behaviour equivalence class, after the "
-                            "feedback."});
+                            "feedback.",
+                            "share"});
   fields.column(&R::all_correct, {"all_correct", "Whether the member answered every test of the period correctly."});
 }
 
 template <typename Fields>
 void declare(Fields& fields, Declared<TeamCost>) {
   using R = TeamCost;
-  fields.column(&R::person_periods, {"person_periods", "Periods that members took part in, summed over members."});
+  fields.column(&R::person_periods,
+                {"person_periods", "Periods that members took part in, summed over members.", "count"});
   fields.column(&R::minutes, measure(kMinutes, "Teaching time by the study's pace, summed over sessions.", "min"));
   fields.column(&R::person_minutes, measure(kPersonMinutes, "Time of the members, summed over members.", "min"));
 }
@@ -305,9 +328,9 @@ void declare(Fields& fields, Declared<TeamForecast>) {
   using R = TeamForecast;
   constexpr auto* kLow = "Lower limit of the central 80 % of the forecast.";
   constexpr auto* kHigh = "Upper limit of the central 80 % of the forecast.";
-  fields.column(&R::periods, measure(kForecastPeriods, "Expected periods, before the first lesson: mean."));
-  fields.column(&R::periods_low, measure(kForecastPeriodsLow, kLow));
-  fields.column(&R::periods_high, measure(kForecastPeriodsHigh, kHigh));
+  fields.column(&R::periods, measure(kForecastPeriods, "Expected periods, before the first lesson: mean.", "periods"));
+  fields.column(&R::periods_low, measure(kForecastPeriodsLow, kLow, "periods"));
+  fields.column(&R::periods_high, measure(kForecastPeriodsHigh, kHigh, "periods"));
   fields.column(&R::minutes, measure("forecast_minutes", "Expected minutes, before the first lesson: mean.", "min"));
   fields.column(&R::minutes_low, measure("forecast_minutes_low", kLow, "min"));
   fields.column(&R::minutes_high, measure("forecast_minutes_high", kHigh, "min"));
@@ -318,11 +341,13 @@ void declare(Fields& fields, Declared<TeamExam>) {
   using R = TeamExam;
   fields.column(&R::share_right, measure(kExamShareRight,
                                          "Share of all starts of the domain where members predict the robot, under "
-                                         "their final beliefs; mean over members."));
+                                         "their final beliefs; mean over members.",
+                                         "share"));
   fields.column(&R::regret, measure(kExamRegret,
                                     "What the members' predictions lose against the robot's paths, over all starts; "
-                                    "mean over members, in the units of the domain file's weights."));
-  fields.column(&R::worst_share_right, measure(kExamWorstShareRight, "The smallest share_right of a member."));
+                                    "mean over members.",
+                                    kRewardUnit));
+  fields.column(&R::worst_share_right, measure(kExamWorstShareRight, "The smallest share_right of a member.", "share"));
 }
 
 template <typename Fields>
@@ -340,14 +365,16 @@ void declare(Fields& fields, Declared<TeamRecord>) {
   fields.column(&R::tests, count(kTests, "Tests asked, in all periods; each of them of every member."));
   fields.column(
       &R::knowledge,
-      {kKnowledge, "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."});
-  fields.column(&R::knowledge_min, {"knowledge_min", "The smallest of these masses."});
+      {kKnowledge, "Mean over members of the mass of their final belief in the policy's behaviour equivalence class.",
+       "share"});
+  fields.column(&R::knowledge_min, {"knowledge_min", "The smallest of these masses.", "share"});
   fields.column(&R::components_learned,
-                {"kcs_learned", "Knowledge components learned; for the baseline the sum over members."});
+                {"kcs_learned", "Knowledge components learned; for the baseline the sum over members.", "count"});
   fields.column(
       &R::components_skipped,
       {"kcs_skipped",
-       "Knowledge components left out, because nothing that could be shown adds to what was taught, or by design."});
+       "Knowledge components left out, because nothing that could be shown adds to what was taught, or by design.",
+       "count"});
   fields.column(&R::area_sr, {kAreaSr, "Mean over periods of the area in periods.csv.", "sr"});
   fields.part(&R::cost, {.when = has_costs});
   fields.part(&R::forecast, {.when = has_forecasts});
@@ -364,7 +391,8 @@ void declare(Fields& fields, Declared<TeamRecord>) {
   fields.column(&R::fewest_particles,
                 measure(kFewestParticles,
                         "The smallest effective number of particles of a member's belief that satisfied what "
-                        "the member was just shown. Below 10 the belief is impoverished."),
+                        "the member was just shown. Below 10 the belief is impoverished.",
+                        "particles"),
                 {.when = has_belief_quality, .before = kExamShareRight});
   fields.kept(&R::discussions, 9);
 }

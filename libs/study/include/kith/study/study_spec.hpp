@@ -95,6 +95,7 @@ struct StudySpec {
   std::string domain = "item-delivery";  ///< Built-in name or path.
   std::size_t num_features = 3;          ///< d of the domain.
   std::int64_t count_scale = 1;          ///< Domain::count_scale(): feature counts are in units of 1 / count_scale.
+  RewardWeights weights{};               ///< Of the domain: tables have regrets in the units of its file.
   std::vector<std::string> world_names;  ///< Of every MDP, empty for those without; none if no MDP has a name.
   std::uint64_t seed = 1;
   std::size_t replicates = 15;             ///< Teams per cell, >= 1.
