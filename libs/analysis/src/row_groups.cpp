@@ -20,8 +20,9 @@ constexpr std::size_t kFewestGroups = 5;
 constexpr std::array<std::string_view, 9> kIdentifierWords{"team",    "person",  "member",  "group", "participant",
                                                            "subject", "learner", "student", "id"};
 // Of people, who may be numbered anew in every one of the others.
-constexpr std::array<std::string_view, 6> kPeople{"person", "member", "participant", "subject", "learner", "student"};
-constexpr std::array<std::string_view, 2> kCollectives{"team", "group"};
+constexpr std::array<std::string_view, 8> kPeople{"person",  "member",  "participant", "subject",
+                                                  "learner", "student", "user",        "seat"};
+constexpr std::array<std::string_view, 3> kCollectives{"team", "group", "session"};
 // "Age group" and "treatment group" are what people have in common, not who sits together.
 constexpr std::array<std::string_view, 14> kAttributes{"age",    "blood",        "condition", "control", "diagnosis",
                                                        "ethnic", "experimental", "gender",    "income",  "language",

@@ -11,7 +11,8 @@ using namespace columns;  // NOLINT(google-build-using-namespace): what every ta
 
 constexpr auto* kMilliseconds = "ms since 1970";
 constexpr auto kSessionWords = identifier(kSession, "Id of the room, unique in this export.");
-constexpr ColumnWords kSeatWords{kSeat, "Number of the person or stand-in in the room, from 1."};
+constexpr auto kSeatWords = identifier(kSeat, "Number of the person or stand-in in the room, from 1.");
+constexpr auto kMemberWords = identifier(kMember, "Place in the group, from 1.");
 constexpr ColumnWords kPeriodWords{kPeriod, "Interaction period, from 1."};
 constexpr ColumnWords kTestWords{kTest, "Test within the period, from 1."};
 constexpr ColumnWords kComponentWords{kTaughtComponent, "What was taught, from 1."};
@@ -50,7 +51,7 @@ void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options
   using R = ParticipantRow;
   table.column(&R::session, kSessionWords)
       .column(&R::seat, kSeatWords)
-      .column(&R::member, {kMember, "Place in the group, from 1; missing for people who waited in reserve."})
+      .column(&R::member, identifier(kMember, "Place in the group, from 1; missing for people who waited in reserve."))
       .column(&R::type, {kType, "Letter of the learner type of that place."})
       .column(&R::strategy, {kStrategy, "Strategy of the room; missing for people who stayed on the waiting list."})
       .column(&R::composition, {kComposition, "Types of the members of the room; missing like the strategy."})
@@ -105,7 +106,7 @@ void declare(TableOf<TestRow>& table, const SessionExportOptions& options) {
       .column(&R::component, kComponentWords)
       .column(&R::test, kTestWords)
       .column(&R::seat, kSeatWords)
-      .column(&R::member, {kMember, "Place in the group, from 1."})
+      .column(&R::member, kMemberWords)
       .column(&R::type, {kType, "Letter of the learner type."})
       .column(&R::strategy, {kStrategy, "Strategy of the room."})
       .column(&R::mdp, {kMdp, "Number of the world."});
@@ -131,8 +132,8 @@ void declare(TableOf<DiscussionRow>& table) {
       .column(&R::period, kPeriodWords)
       .column(&R::component, kComponentWords)
       .column(&R::test, kTestWords)
-      .column(&R::seat, {kSeat, "Number of the person in the room, from 1; missing for stand-ins."})
-      .column(&R::member, {kMember, "Place in the group, from 1."})
+      .column(&R::seat, identifier(kSeat, "Number of the person in the room, from 1; missing for stand-ins."))
+      .column(&R::member, kMemberWords)
       .column(&R::correct, {kCorrect, "Whether the first answer is as good as the robot's path."})
       .column(&R::revised_correct, {"revised_correct", "Whether the answer after the discussion is."})
       .column(&R::changed, {"changed", "Whether that is another answer."});
@@ -178,7 +179,7 @@ ExportTables::ExportTables(const SessionExportOptions& options)
       .column(&BeliefRow::period, kPeriodWords)
       .column(&BeliefRow::belief,
               {"belief", "Whom the belief is about: member N, or how beliefs were combined, such as common."})
-      .column(&BeliefRow::member, {kMember, "Place in the group, from 1; missing for combined beliefs."})
+      .column(&BeliefRow::member, identifier(kMember, "Place in the group, from 1; missing for combined beliefs."))
       .column(&BeliefRow::p_bec, {kBelief,
                                   "Share of the belief in the set of rewards that lead to the robot's policy: the "
                                   "teacher's estimate of what the member knows.",
