@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
+
+#include "kith/analysis/decimals.hpp"
 
 namespace kith {
 namespace {
@@ -21,10 +25,19 @@ std::string number_text(double value) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
+constexpr int kMoreDecimals = 6;  // at most, than usual
+
+template <typename Holds>
+int decimals_until(int least, Holds holds) {
+  int decimals = least;
+  while (decimals < least + kMoreDecimals && !holds(decimals)) ++decimals;
+  return decimals;
+}
+
 std::string real_text(double value, ResultKind kind) {
   switch (kind) {
     case ResultKind::kFraction:
-      return fmt::format("{:.3f}", std::abs(value) < 0.0005 ? 0.0 : value);
+      return fixed_text(value, share_decimals(std::array{value}, 3));
     case ResultKind::kP:
       return value < kSmallestShownP ? "< 0.001" : fmt::format("{:.3f}", value);
     default:
@@ -49,6 +62,37 @@ std::string field_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::string fixed_text(double value, int decimals) {
+  auto text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  if (is_zero && text.front() == '-') text.erase(0, 1);
+  return text;
+}
+
+int interval_decimals(double low, double high, int least) {
+  return decimals_until(least, [&](int decimals) {
+    const auto from = fixed_text(low, decimals), to = fixed_text(high, decimals), zero = fixed_text(0.0, decimals);
+    return (low == high || from != to) && (!(low > 0.0) || from != zero) && (!(high < 0.0) || to != zero);
+  });
+}
+
+std::string interval_text(double low, double high, int least) {
+  const int decimals = interval_decimals(low, high, least);
+  return "[" + fixed_text(low, decimals) + ", " + fixed_text(high, decimals) + "]";
+}
+
+int share_decimals(std::span<const double> shares, int least) {
+  return decimals_until(least, [&](int decimals) {
+    const auto zero = fixed_text(0.0, decimals), one = fixed_text(1.0, decimals);
+    std::map<std::string, double> read;
+    return std::all_of(shares.begin(), shares.end(), [&](double share) {
+      const auto text = fixed_text(share, decimals);
+      return (text != zero || share == 0.0) && (text != one || share == 1.0) &&
+             read.emplace(text, share).first->second == share;
+    });
+  });
+}
 
 std::string formatted(const TableCell& cell, ResultKind kind) {
   if (const auto* const text = std::get_if<std::string>(&cell)) return *text;

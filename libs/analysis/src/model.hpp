@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -113,5 +114,11 @@ void add_method(Finding& finding, Method method);
 
 // "F(3, 224) = 0.20, p = 0.898"
 [[nodiscard]] std::string test_text(const TestResult& test);
+
+/// Warns of the value whose residual is the furthest, if chance hardly explains it: studentised without it, with
+/// Bonferroni's correction for the search. @param leverages  by cell. @param squares  sum of squares of residuals.
+void warn_of_far_value(std::span<const double> values, std::span<const double> residuals,
+                       std::span<const double> leverages, std::span<const std::size_t> cell_of, double df,
+                       double squares, std::vector<std::string>& warnings);
 
 }  // namespace kith

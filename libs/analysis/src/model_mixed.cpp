@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/analysis/decimals.hpp"
 #include "kith/stats/design_effect.hpp"
 #include "kith/stats/mixed_model.hpp"
 #include "model_means.hpp"
@@ -10,6 +11,24 @@
 
 namespace kith {
 namespace {
+
+// By how far values are from the mean of their cell: what the groups have in common counts as chance.
+void add_far_value_of_cells(const ModelData& data, const FactorDesign& design, std::vector<std::string>& warnings) {
+  std::vector<double> means(design.counts.size(), 0.0), leverages(design.counts.size(), 0.0), residuals;
+  for (std::size_t i = 0; i < data.values.size(); ++i) means[design.cell_of[i]] += data.values[i];
+  for (std::size_t cell = 0; cell < means.size(); ++cell) {
+    if (design.counts[cell] == 0) continue;
+    leverages[cell] = 1.0 / static_cast<double>(design.counts[cell]);
+    means[cell] *= leverages[cell];
+  }
+  double squares = 0.0;
+  for (std::size_t i = 0; i < data.values.size(); ++i) {
+    residuals.push_back(data.values[i] - means[design.cell_of[i]]);
+    squares += residuals.back() * residuals.back();
+  }
+  const auto df = static_cast<double>(residuals.size()) - static_cast<double>(means.size());
+  warn_of_far_value(data.values, residuals, leverages, design.cell_of, df, squares, warnings);
+}
 
 using Kind = ResultKind;
 
@@ -67,7 +86,7 @@ std::string likeness_sentence(const MixedModel& model, const ModelData& data) {
     text += fmt::format(" The intraclass correlation of {} with the same {} is {:.2f}", data.observations, one.name,
                         one.intraclass_correlation);
     if (one.intraclass_interval)
-      text += fmt::format(" [{:.2f}, {:.2f}]", one.intraclass_interval->low, one.intraclass_interval->high);
+      text += " " + interval_text(one.intraclass_interval->low, one.intraclass_interval->high, 2);
     if (effect && effect->design_effect > 1.0) {
       text += fmt::format(
           " (design effect {:.2f}: for the overall mean, {} {} carry as much information as {:.0f} independent ones)",
@@ -104,6 +123,7 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
     }
   }
 
+  if (!data.is_binary) add_far_value_of_cells(data, model.fixed.design, finding.warnings);
   if (data.is_ordinal) {
     finding.warnings.push_back(
         "ratings are analysed as numbers with equal steps, because kith's ordinal models have no random intercepts; "

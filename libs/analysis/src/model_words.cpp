@@ -100,16 +100,12 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
 // The value that is furthest from what the model says of it, if chance hardly explains that: by its studentised
 // residual of the model that is fitted without it, with Bonferroni's correction for the search (R: car::outlierTest).
 void add_far_value(const ModelData& data, const ModelResult& result, std::vector<std::string>& warnings) {
-  constexpr double kHardlyByChance = 0.001;
-  constexpr double kExactly = 1e-12;
   const auto& residuals = result.table.residuals;
   if (data.is_binary || !result.linear || !result.linear->effects.residual_sd || residuals.empty()) return;
   const auto& effects = result.linear->effects;
   const auto& design = effects.design;
   const auto columns = design.columns.size();
   const double variance = std::pow(*effects.residual_sd, 2);
-  const auto df = static_cast<double>(result.linear->residual_df);
-  if (df < 2.0) return;
   std::vector<double> leverages(design.counts.size(), 0.0);
   for (std::size_t cell = 0; cell < leverages.size(); ++cell) {
     const double* const row = &design.grid[cell * columns];
@@ -118,34 +114,8 @@ void add_far_value(const ModelData& data, const ModelResult& result, std::vector
         leverages[cell] += row[i] * effects.covariance[i * columns + j] * row[j] / variance;
     }
   }
-  std::size_t furthest = 0;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    const double free = 1.0 - leverages[design.cell_of[i]];
-    if (free < 1e-9) continue;  // fitted exactly, whatever its value
-    const double square = std::pow(residuals[i], 2) / free;
-    const double rest = (df * variance - square) / (df - 1.0);
-    // What is left of all that is lost in rounding is nothing: the model fits the others exactly.
-    const bool fits_others = rest * (df - 1.0) <= kExactly * df * variance;
-    const double size = fits_others ? std::numeric_limits<double>::infinity() : std::sqrt(square / rest);
-    if (size <= largest) continue;
-    largest = size;
-    furthest = i;
-  }
-  if (std::isinf(largest)) {
-    warnings.push_back(fmt::format(
-        "the value {} is unlike all others, which the model fits exactly without it, so how far it is from them cannot "
-        "be estimated; see whether it is an error, and what is found without it",
-        formatted(data.values[furthest], ResultKind::kNumber)));
-    return;
-  }
-  const double p = std::min(1.0, static_cast<double>(residuals.size()) * student_t_two_sided(largest, df - 1.0));
-  if (p >= kHardlyByChance) return;
-  warnings.push_back(
-      fmt::format("the value {} is far from the others: {:.1f} standard deviations from what the model says without "
-                  "it; see whether "
-                  "it is an error, and what is found without it",
-                  formatted(data.values[furthest], ResultKind::kNumber), largest));
+  const auto df = static_cast<double>(result.linear->residual_df);
+  warn_of_far_value(data.values, residuals, leverages, design.cell_of, df, df * variance, warnings);
 }
 
 void add_shape_warnings(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
@@ -173,6 +143,42 @@ void add_disagreements(const ModelResult& result, double alpha, std::vector<std:
 }
 
 }  // namespace
+
+void warn_of_far_value(std::span<const double> values, std::span<const double> residuals,
+                       std::span<const double> leverages, std::span<const std::size_t> cell_of, double df,
+                       double squares, std::vector<std::string>& warnings) {
+  constexpr double kHardlyByChance = 0.001;
+  constexpr double kExactly = 1e-12;
+  if (df < 2.0) return;
+  std::size_t furthest = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const double free = 1.0 - leverages[cell_of[i]];
+    if (free < 1e-9) continue;  // fitted exactly, whatever its value
+    const double square = std::pow(residuals[i], 2) / free;
+    const double rest = (squares - square) / (df - 1.0);
+    // What is left of all that is lost in rounding is nothing: the model fits the others exactly.
+    const bool fits_others = rest * (df - 1.0) <= kExactly * squares;
+    const double size = fits_others ? std::numeric_limits<double>::infinity() : std::sqrt(square / rest);
+    if (size <= largest) continue;
+    largest = size;
+    furthest = i;
+  }
+  if (std::isinf(largest)) {
+    warnings.push_back(fmt::format(
+        "the value {} is unlike all others, which the model fits exactly without it, so how far it is from them cannot "
+        "be estimated; see whether it is an error, and what is found without it",
+        formatted(values[furthest], ResultKind::kNumber)));
+    return;
+  }
+  const double p = std::min(1.0, static_cast<double>(residuals.size()) * student_t_two_sided(largest, df - 1.0));
+  if (p >= kHardlyByChance) return;
+  warnings.push_back(
+      fmt::format("the value {} is far from the others: {:.1f} standard deviations from what the model says without "
+                  "it; see whether "
+                  "it is an error, and what is found without it",
+                  formatted(values[furthest], ResultKind::kNumber), largest));
+}
 
 std::string test_text(const TestResult& test) {
   std::string df;

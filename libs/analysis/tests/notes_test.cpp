@@ -54,6 +54,18 @@ TEST(Notes, NameFarValues) {
   EXPECT_THAT(found.warnings, Contains(HasSubstr("the value 412.0 is far from the others: 105.7 standard deviations")));
 }
 
+// Also where people answer several times: what they have in common is no reason to call a value far.
+TEST(Notes, NameFarValuesOfPeople) {
+  std::string text = "person,g,y\n";
+  for (int i = 0; i < 80; ++i)
+    text += "p" + std::to_string(i / 4) + (i % 2 == 0 ? ",a," : ",b,") +
+            std::to_string(50 + i / 4 * 5 % 17 + i * 7 % 11) + "\n";
+  EXPECT_THAT(analysis_of(text, {"y ~ g + (1|person)"}).findings.front().warnings,
+              Not(Contains(HasSubstr("far from the others"))));
+  EXPECT_THAT(analysis_of(text + "p3,b,412\n", {"y ~ g + (1|person)"}).findings.front().warnings,
+              Contains(HasSubstr("the value 412.0 is far from the others")));
+}
+
 // Every subject sees every item; difficulty is a property of items.
 std::string people_and_items() {
   std::string text = "subject,item,difficulty,y\n";
