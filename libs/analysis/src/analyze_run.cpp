@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
@@ -75,6 +76,11 @@ std::vector<PlannedContrast> contrasts_of(const PublishedRun& run) {
   return contrasts;
 }
 
+// What was published of the run before teams were added, as its manifest says.
+std::vector<std::string> grown_from(const PublishedRun& run) {
+  return nlohmann::json::parse(run.manifest()).value("grown", std::vector<std::string>{});
+}
+
 // The same options with the exploratory contrasts of one response.
 AnalysisOptions for_response(AnalysisOptions options, const std::string& response) {
   const auto is_other = [&](const PlannedContrast& one) {
@@ -93,6 +99,10 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
   Analysis analysis{run_folder.string(), {design_note(teams)}};
   for (const auto& what : run.missing())
     analysis.notes.push_back("the run is incomplete, and all results describe only the teams that are there: " + what);
+  for (const auto& before : grown_from(run))
+    analysis.notes.push_back("the run had " + before +
+                             ", and teams were added later: a plan that says that no team is added after a test does "
+                             "not cover tests of all of them if those were analysed");
   const auto responses = outcomes_of(teams);
   // What a design allows is the same for all responses.
   const auto model = team_model(teams, group_teams(teams), columns::kPeriods, teams.periods);

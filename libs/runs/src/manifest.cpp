@@ -63,6 +63,7 @@ std::string manifest(const Study& study, const RunContent& content, const RunFac
                 {"inputs", {{"study.toml", sha256(inputs.study)}, {"domain.toml", sha256(inputs.domain)}}},
                 {"tables", content.tables}};
   for (const auto& file : inputs.files) document["inputs"][file.name] = file.sha256;
+  if (!content.grown.empty()) document["grown"] = content.grown;
   if (!content.shard.empty()) document["shard"] = content.shard;
   if (!facts.failed.empty()) document["failed"] = facts.failed;
   if (!facts.missing.empty()) document["missing"] = facts.missing;
@@ -74,6 +75,16 @@ std::optional<std::string> fact_in_manifest(const std::string& manifest, const s
   const auto document = nlohmann::json::parse(manifest);
   const auto fact = document.find(key);
   return fact != document.end() && fact->is_string() ? std::optional{fact->get<std::string>()} : std::nullopt;
+}
+
+std::vector<std::string> growth_of(const std::string& before, const RunInputs& now, bool is_part) {
+  if (!is_sealed(before)) return {};
+  const auto document = nlohmann::json::parse(before);
+  auto grown = document.value("grown", std::vector<std::string>{});
+  if (document.value("run", "") == now.digest()) return grown;
+  if (!is_part) return {};
+  grown.push_back(std::to_string(document.value("teams", 0)) + " teams on " + document.value("stopped", ""));
+  return grown;
 }
 
 std::string timings_table(const RunFacts& facts) {

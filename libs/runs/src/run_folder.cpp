@@ -42,6 +42,18 @@ std::optional<JournalIdentity> identity_if_any(const fs::path& journal) try {
   return std::nullopt;
 }
 
+// The inputs that a folder holds, as far as they are named like those.
+RunInputs frozen_inputs(const fs::path& path, const std::vector<InputFile>& files) {
+  RunInputs frozen{text_if_any(path / "inputs" / "study.toml").value_or(""),
+                   text_if_any(path / "inputs" / kFrozenDomain).value_or(""),
+                   {}};
+  for (const auto& file : files) {
+    const auto text = text_if_any(path / "inputs" / file.name).value_or("");
+    frozen.files.push_back({file.name, sha256(text), text});
+  }
+  return frozen;
+}
+
 // What write_tables() leaves behind.
 struct WrittenTables {
   std::map<std::string, std::string> hashes;  // by name
@@ -176,11 +188,7 @@ void RunFolder::check_content(bool replace) {
     throw Error{ErrorKind::kUsage, path_.string() + " is not empty and is not a run folder", Remedy::kReplaceContents};
   }
   if (!study && !begun) return;  // only a journal that cannot be read, which is for whoever opens it to say
-  RunInputs earlier{study.value_or(""), domain.value_or(""), {}};
-  for (const auto& file : inputs_.files) {
-    const auto text = text_if_any(path_ / "inputs" / file.name).value_or("");
-    earlier.files.push_back({file.name, sha256(text), text});
-  }
+  auto earlier = frozen_inputs(path_, inputs_.files);
   if (begun) earlier = begun->inputs;
   if (extends(earlier, inputs_)) return;
   constexpr std::size_t kMost = 6;
@@ -237,7 +245,10 @@ void RunFolder::publish(const Study& study, const TeamSource& teams, const RunFa
   require_in_place();
   Generation generation{path_};
   const auto written = write_tables(generation.path() / "tables", study, inputs_.digest(), teams);
-  commit(generation, manifest(study, {inputs_, written.teams, {}, written.hashes}, facts), facts, {});
+  const auto before = text_if_any(path_ / kManifestFile);
+  const auto grown = before ? growth_of(*before, inputs_, extends(frozen_inputs(path_, inputs_.files), inputs_))
+                            : std::vector<std::string>{};
+  commit(generation, manifest(study, {inputs_, written.teams, {}, written.hashes, grown}, facts), facts, {});
 }
 
 void RunFolder::publish_shard(const Study& study, const std::string& shard, std::size_t num_teams,
