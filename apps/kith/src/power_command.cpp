@@ -14,6 +14,7 @@
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/present/json.hpp"
+#include "kith/random/stream.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study_design/power.hpp"
 #include "planning_input.hpp"
@@ -36,6 +37,7 @@ struct PowerCommandOptions {
   bool paired = false;
   std::string findings;     ///< A targets file: repeat the study and look for its findings.
   std::string preregister;  ///< File for a preregistration of the study; empty: none.
+  std::string results;      ///< Where a run of the study would be; empty: results/ID.
   std::size_t studies = 200;
   std::optional<std::uint64_t> seed;
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
@@ -55,8 +57,8 @@ Effect effect_of(const std::string& text, const StudySpec& spec) {
   return *reading.effect;
 }
 
-// What the default analyses test, as far as the design allows. Beyond three features the outcomes of the exam come
-// first and knowledge, which says little there, comes last.
+// What the study plans to compare; else what the default analyses test, as far as the design allows. Beyond three
+// features the outcomes of the exam come first and knowledge, which says little there, comes last.
 std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_features) {
   const std::vector<const char*> periods{"periods: strategy", "periods: composition",
                                          "periods: strategy x composition"};
@@ -66,6 +68,16 @@ std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_featu
   const std::vector<const char*> exam{"exam_share_right: strategy", "exam_regret: strategy",
                                       "exam_worst_share_right: strategy", "exam_regret: group - baseline"};
   const bool has_exam = spec.exam != ExamLevel::kNone;
+  if (!spec.contrasts.empty()) {
+    std::vector<std::string> outcomes{"periods", "knowledge"};
+    if (has_exam) outcomes.insert(outcomes.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
+    std::vector<Effect> planned;
+    for (const auto& contrast : spec.contrasts) {
+      const auto all = effects_of(contrast, spec, outcomes);
+      planned.insert(planned.end(), all.begin(), all.end());
+    }
+    if (!planned.empty()) return planned;
+  }
   std::vector<const char*> texts;
   const auto add = [&](const std::vector<const char*>& more) { texts.insert(texts.end(), more.begin(), more.end()); };
   if (has_exam && num_features > 3) {
@@ -156,7 +168,8 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   for (const auto& effect : effects) quantities.push_back(effect.quantity);
   auto pool_spec = recording(spec, quantities);
   pool_spec.replicates = options.pool.value_or(std::max(kDefaultPool, 2 * power.teams.back()));
-  pool_spec.seed = power.seed;
+  // Other teams than those of the study, whatever the seed: a plan must not have seen them.
+  pool_spec.seed = RandomStream{power.seed}.split("teams of a plan").address();
   check_pool(options, pool_spec.replicates, power.teams);
   const Study pool_study{{pool_spec}};
   require_pool_memory(pool_study, options.threads, num_teams(pool_study));  // before the time is measured
@@ -169,7 +182,9 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   const auto cells = checked_cells(pool, effects, console);
   const auto curves = power_curves(pool, effects, power);
   if (!options.preregister.empty()) {
-    const PlannedStudy planned{spec, atlas.domain(), freeze(reading), options.study, utc_now()};
+    const PlannedStudy planned{
+        spec,          atlas.domain(), freeze(reading),
+        options.study, utc_now(),      options.results.empty() ? "results/" + spec.id : options.results};
     write_file_atomically(options.preregister, preregistration_text(planned, curves, cells, power));
   }
   if (console.json()) {
@@ -194,11 +209,12 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
     if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
       text += cells_text(quantity, curves, cells, console);
   }
-  console.print(text +
-                console.dim(fmt::format("significance level {:g}; {} studies of each size, drawn from {} teams per "
-                                        "cell;\nintervals include the error from both",
-                                        power.alpha, power.draws, pool_spec.replicates)) +
-                "\n" + assumptions_text(spec, power.paired, console));
+  console.print(
+      text +
+      console.dim(fmt::format("significance level {:g}; {} studies of each size, drawn from {} teams per "
+                              "cell,\nnone of which is a team of the study; intervals include the error from both",
+                              power.alpha, power.draws, pool_spec.replicates)) +
+      "\n" + assumptions_text(spec, power.paired, console));
   return 0;
 }
 
@@ -241,8 +257,9 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
 void declare(OptionList& list, PowerCommandOptions& options) {
   constexpr NumberRange kShare{1e-6, 1.0 - 1e-6};
   list.study(options.study).required();
-  auto effects = list.texts("--effect", options.effects, "EFFECT",
-                            "Effect, such as 'periods: strategy eta2 = 0.02' (may be repeated; default: all)");
+  auto effects = list.texts(
+      "--effect", options.effects, "EFFECT",
+      "Effect, such as 'periods: strategy eta2 = 0.02' (may be repeated; default: the planned contrasts, else all)");
   list.number("--target", options.target, "P", kShare, "Desired power");
   list.number("--alpha", options.alpha, "P", kShare, "Significance level");
   list.integer("--teams", options.teams, {2, 100'000},
@@ -257,9 +274,12 @@ void declare(OptionList& list, PowerCommandOptions& options) {
   list.text("--preregister", options.preregister, "FILE",
             "Write a preregistration of the study to this file: hypotheses, design, sample size, stopping, analyses")
       .excludes(findings);
+  list.text("--results", options.results, "DIR",
+            "For --preregister: the run folder in which to look for a finished run (default: results/ID)");
   list.integer("--studies", options.studies, {2, 100'000}, "Repetitions for --findings");
   list.threads(options.threads, "; never changes a result");
-  list.integer("--seed", options.seed, {}, "Random seed (default: that of the study)");
+  list.integer("--seed", options.seed, {},
+               "Random seed (default: that of the study); the teams are others than the study's");
   list.set(options.set);
   list.progress(options.progress);
   list.json();

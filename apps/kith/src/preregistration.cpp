@@ -154,6 +154,19 @@ std::string hypotheses_text(const std::vector<PlannedContrast>& primary, const s
   return text + "\n";
 }
 
+// Whether the study was run before, as far as that can be seen.
+std::string run_text(const PlannedStudy& planned) {
+  const auto digest = published_digest(planned.results);
+  if (!digest) return fmt::format("no finished run was found in `{}`", planned.results);
+  const auto when = published_fact(planned.results, "stopped").value_or("an unknown time");
+  if (*digest == planned.inputs.digest())
+    return fmt::format("**after the study was run**: `{}` holds a run of these inputs, finished on {}", planned.results,
+                       when);
+  if (published_fact(planned.results, "study") == planned.spec.id)
+    return fmt::format("`{}` holds a run of this study with other inputs, finished on {}", planned.results, when);
+  return fmt::format("no run of this study was found in `{}`", planned.results);
+}
+
 // What proves that this was planned, and not something else.
 std::string identity_text(const PlannedStudy& planned) {
   const auto& weights = planned.domain.weights().raw;
@@ -162,10 +175,10 @@ std::string identity_text(const PlannedStudy& planned) {
   for (std::size_t k = 0; k < names.size(); ++k)
     reward += fmt::format("{}{} {:g}", k == 0 ? "" : ", ", names[k], weights.at(k));
   auto text = fmt::format(
-      "Study `{}`, written by kith {} on {}, before the study was run.\n\n* Domain: {} (`{}`); weights: {}\n* Seed: "
+      "Study `{}`, written by kith {} on {}; {}.\n\n* Domain: {} (`{}`); weights: {}\n* Seed: "
       "{}\n\n| input | SHA-256 |\n|---|---|\n| study.toml | {} |\n| domain.toml | {} |\n",
-      planned.spec.id, program_name(), planned.written, planned.spec.domain, planned.domain.id(), reward,
-      planned.spec.seed, sha256(planned.inputs.study), sha256(planned.inputs.domain));
+      planned.spec.id, program_name(), planned.written, run_text(planned), planned.spec.domain, planned.domain.id(),
+      reward, planned.spec.seed, sha256(planned.inputs.study), sha256(planned.inputs.domain));
   for (const auto& file : planned.inputs.files) text += fmt::format("| {} | {} |\n", file.name, file.sha256);
   return text + fmt::format(
                     "| all inputs | {} |\n\nkith study keeps these files in `inputs` and their digests in "

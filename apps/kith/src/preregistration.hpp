@@ -17,6 +17,7 @@ struct PlannedStudy {
   RunInputs inputs;     ///< As kith study freezes them.
   std::string source;   ///< The study as named on the command line.
   std::string written;  ///< When: UTC, "2026-01-31T12:00:00Z".
+  std::string results;  ///< The folder in which a run of it is looked for.
 };
 
 /// A preregistration of a study as Markdown: hypotheses, design, sample size, stopping, exclusions, analyses, and what

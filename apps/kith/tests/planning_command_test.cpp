@@ -184,6 +184,18 @@ TEST(PowerCommand, SaysWhatIsWrong) {
 }
 
 // The models are those that kith analyze then fits.
+// The mean of the only composition, as JSON has it.
+std::string mean_periods(const Json& report, const std::string& strategy) {
+  const auto& cells = report.at("tables").at("cells");
+  const auto column = [&](const std::string& name) {
+    const auto& all = cells.at("columns");
+    return std::find(all.begin(), all.end(), name) - all.begin();
+  };
+  for (const auto& row : cells.at("rows"))
+    if (row.at(column("strategy")) == strategy) return row.at(column("periods_mean")).dump();
+  return "";
+}
+
 TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
   const Scratch scratch;
   const auto file = scratch / "plan.md";
@@ -202,6 +214,15 @@ TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
     EXPECT_THAT(plan, HasSubstr(finding.at("question").get<std::string>()));
   }
   EXPECT_EQ(run_kith({"power", "quick", "--findings", "f.toml", "--preregister", file}).code, 2);
+  // A plan that is written later says so, and its teams are others than those of the study, with the same seed too.
+  EXPECT_THAT(plan, HasSubstr("no finished run was found in `results/"));
+  const auto late =
+      run_small({"power", "quick", "--effect", "periods: group - baseline", "--teams", "2", "--pool", "4", "--seed",
+                 "1", "--set", "replicates=4", "--results", folder, "--preregister", file, "--draws", "20", "--json"});
+  ASSERT_EQ(late.code, 0) << late.err;
+  EXPECT_THAT(text_of(file), HasSubstr("**after the study was run**: `" + folder + "` holds a run of these inputs"));
+  const auto report = Json::parse(run_kith({"report", folder, "--json"}).out);
+  EXPECT_THAT(late.out, ::testing::Not(HasSubstr("\"mean\":" + mean_periods(report, "baseline") + ",")));
   // What was planned is proved to be what was run.
   const auto manifest = Json::parse(text_of(folder + "/manifest.json"));
   EXPECT_THAT(plan, AllOf(HasSubstr(", written by kith "), HasSubstr("* Seed: "), HasSubstr("; weights: rubble"),

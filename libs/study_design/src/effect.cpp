@@ -144,4 +144,25 @@ EffectReading parse_effect(std::string_view text, const StudySpec& spec) {
   return {effect, {}, {}};
 }
 
+std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& spec,
+                               const std::vector<std::string>& outcomes) {
+  std::string sides[2];
+  double weights[2] = {0.0, 0.0};
+  const bool of_compositions = contrast.factor == columns::kComposition;
+  for (const auto& [level, weight] : contrast.weights) {
+    if (weight == 0.0) continue;
+    const int side = weight < 0.0 ? 1 : 0;
+    if (!sides[side].empty() && (of_compositions || weight != weights[side])) return {};
+    weights[side] = weight;
+    sides[side] += (sides[side].empty() ? of_compositions ? "group/" : "" : "+") + level;
+  }
+  std::vector<Effect> effects;
+  for (const auto& outcome : outcomes) {
+    if (!contrast.response.empty() && contrast.response != outcome) continue;
+    const auto reading = parse_effect(outcome + ": " + sides[0] + " - " + sides[1], spec);
+    if (reading.effect) effects.push_back(*reading.effect);
+  }
+  return effects;
+}
+
 }  // namespace kith

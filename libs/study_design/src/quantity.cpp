@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
 
 #include "kith/table/outcome.hpp"
 
@@ -61,8 +62,17 @@ StudySpec recording(StudySpec spec, std::span<const Quantity> quantities) {
   return spec;
 }
 
+namespace {
+
+// Whether a strategy is one of "joint+common".
+bool is_part(const std::string& strategy, std::string_view who) {
+  return ("+" + std::string{who} + "+").find("+" + strategy + "+") != std::string::npos;
+}
+
+}  // namespace
+
 bool TeamSelection::contains(const TeamAddress& address) const {
-  const bool right_strategy = strategy ? address.strategy == *strategy : address.strategy != kBaseline;
+  const bool right_strategy = strategy ? is_part(address.strategy, *strategy) : address.strategy != kBaseline;
   return right_strategy && (composition.empty() || composition == address.composition);
 }
 
@@ -81,7 +91,8 @@ std::optional<TeamSelection> parse_selection(std::string_view text, const StudyS
     if (std::none_of(spec.strategies.begin(), spec.strategies.end(), is_group)) return std::nullopt;
   } else {
     const auto& all = spec.strategies;
-    if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == who; })) return std::nullopt;
+    const auto known = std::count_if(all.begin(), all.end(), [&](const auto& one) { return is_part(one.name, who); });
+    if (known != std::count(who.begin(), who.end(), '+') + 1) return std::nullopt;
     selection.strategy = std::string{who};
   }
   if (slash == std::string_view::npos) return selection;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kith/study_design/quantity.hpp"
 
@@ -39,5 +40,10 @@ struct EffectReading {
 /// Reads `QUANTITY: TERM [eta2 = X]`, where TERM is `strategy`, `composition`, `strategy x composition` or `strategy in
 /// COMPOSITION`, or `QUANTITY: TEAMS - TEAMS [= X]`, where TEAMS are as in parse_selection and blanks surround `-`.
 [[nodiscard]] EffectReading parse_effect(std::string_view text, const StudySpec& spec);
+
+/// What a planned contrast ([[contrast]]) compares, as effects on its outcome, or on all that `outcomes` names. None
+/// for weights that are not the mean of some levels minus that of others.
+[[nodiscard]] std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& spec,
+                                             const std::vector<std::string>& outcomes);
 
 }  // namespace kith

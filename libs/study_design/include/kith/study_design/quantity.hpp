@@ -38,7 +38,7 @@ inline constexpr std::size_t kNumQuantities = 7;  ///< As many as there are outc
 
 /// Some of the teams of a study, pooled.
 struct TeamSelection {
-  std::optional<std::string> strategy;  ///< Missing: every strategy but the baseline.
+  std::optional<std::string> strategy;  ///< Or several, "joint+common". Missing: all but the baseline.
   std::string composition;              ///< Empty: all.
   [[nodiscard]] bool contains(const TeamAddress& address) const;
   friend bool operator==(const TeamSelection&, const TeamSelection&) = default;
