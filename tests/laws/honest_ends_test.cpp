@@ -2,12 +2,22 @@
 // they say was taught was shown; or they end with an error that says why.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "kith/analysis/analysis.hpp"
+#include "kith/analysis/dataset.hpp"
+#include "kith/analysis/decimals.hpp"
 #include "kith/core/error.hpp"
 #include "kith/report/report.hpp"
 #include "kith/runs/study_run.hpp"
@@ -126,6 +136,192 @@ void expect_honest(const Atlas& atlas, const StudySpec& spec, const TeamRecord& 
   }
 }
 
+// The first screen of a report says what its numbers say: intervals as they are printed, answers, and the headline.
+void expect_said_is_shown(const std::string& report) {
+  const auto document = nlohmann::json::parse(report);
+  const auto& overview = document.at("overview");
+  const auto headline = overview.at("finding").get<std::string>();
+  bool differs_in_periods = false;
+  for (const auto& answer : overview.at("answers")) {
+    const auto said = answer.at("answer").get<std::string>();
+    const bool is_tested = answer.at("p").is_number();
+    const bool is_shown = is_tested && answer.at("p").get<double>() < 0.05;
+    if (is_tested) {
+      EXPECT_EQ(is_shown, said != "no difference found" && said != "too few teams to tell") << answer.dump();
+    }
+    differs_in_periods |= is_shown && answer.at("outcome") == "periods";
+    if (!answer.at("low").is_number() || !answer.at("high").is_number()) continue;
+    const double low = answer.at("low").get<double>(), high = answer.at("high").get<double>();
+    const auto read = [&](double value) { return std::stod(fixed_text(value, answer.at("digits").get<int>())); };
+    if (high - low < 1e-6) continue;  // no more decimals are printed
+    EXPECT_LT(read(low), read(high)) << answer.dump();
+    EXPECT_EQ(low <= 0.0 && high >= 0.0, read(low) <= 0.0 && read(high) >= 0.0) << answer.dump();
+  }
+  if (headline.find("differ in periods") != std::string::npos) {
+    EXPECT_TRUE(differs_in_periods) << headline;
+  }
+  const auto& cells = document.at("tables").at("cells");
+  const auto column = std::ranges::find(cells.at("columns"), "periods_mean") - cells.at("columns").begin();
+  std::set<double> periods;
+  for (const auto& row : cells.at("rows"))
+    if (row.at(column).is_number()) periods.insert(row.at(column).get<double>());
+  if (headline.find("detectably in periods") != std::string::npos) {
+    EXPECT_GT(periods.size(), 1u) << headline;
+  }
+}
+
+// A text, and what of it was not looked at yet.
+class Sentences {
+ public:
+  explicit Sentences(std::string text) : text_{std::move(text)} {}
+
+  void each(const std::string& pattern, const std::function<void(const std::smatch&)>& check) {
+    const std::regex regex{pattern};
+    for (std::smatch match; std::regex_search(text_, match, regex);) {
+      check(match);
+      text_ = match.prefix().str() + match.suffix().str();
+    }
+  }
+  [[nodiscard]] bool has_numbers() const { return text_.find_first_of("0123456789") != std::string::npos; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+// The means of teams.csv by outcome, of those that were taught together and of those taught alone.
+class TeamMeans {
+ public:
+  TeamMeans(const Dataset& teams, const StudySpec& spec) {
+    const auto& strategies = teams.cells("strategy");
+    const auto& compositions = teams.cells("composition");
+    for (std::size_t i = 0; i < teams.num_rows(); ++i) {
+      const bool alone = *strategies[i] == "baseline";
+      const auto value = [&](const char* column) { return teams.required_numbers(column)[i]; };
+      const auto add = [&](const std::string& outcome, double x) { values_[alone][outcome].push_back(x); };
+      add("periods", value("periods"));
+      add("person-periods", value("periods") * (alone ? 1.0 : static_cast<double>(compositions[i]->size())));
+      add("knowledge at the end", value("knowledge"));
+      if (teams.has("exam_share_right")) add("share right in the exam", value("exam_share_right"));
+      completed_ += *teams.cells("completed")[i] == "true" ? std::size_t{1} : std::size_t{0};
+      auto series = *strategies[i];
+      for (const auto& factor : spec.factors) series += " " + *teams.cells(factor.key)[i];
+      if (!alone) items_[series].push_back(value("demonstrations") + value("tests"));
+    }
+  }
+
+  [[nodiscard]] double of(const std::string& outcome, bool alone) const { return mean(values_[alone].at(outcome)); }
+  [[nodiscard]] std::size_t teams(bool alone) const {
+    return values_[alone].count("periods") == 0 ? 0 : values_[alone].at("periods").size();
+  }
+  [[nodiscard]] std::size_t completed() const { return completed_; }
+  [[nodiscard]] std::pair<double, double> fewest_and_most_items() const {
+    std::set<double> means;
+    for (const auto& [series, values] : items_) means.insert(mean(values));
+    return {*means.begin(), *means.rbegin()};
+  }
+
+ private:
+  static double mean(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+
+  std::array<std::map<std::string, std::vector<double>>, 2> values_;
+  std::map<std::string, std::vector<double>> items_;
+  std::size_t completed_ = 0;
+};
+
+// Whether a number, as it is printed, is this one rounded, and not 0 or 1 of a share that is neither.
+void expect_reads(const std::string& printed, double value, bool is_share = false) {
+  const auto point = printed.find('.');
+  const auto decimals = point == std::string::npos ? 0.0 : static_cast<double>(printed.size() - point - 1);
+  EXPECT_NEAR(std::stod(printed), value, 0.5 * std::pow(10.0, -decimals) + 1e-9) << printed;
+  const bool is_end = std::stod(printed) == 0.0 || std::stod(printed) == 1.0;
+  if (is_share && decimals < 8.0) {
+    EXPECT_EQ(is_end, value == 0.0 || value == 1.0) << printed << " of " << value;
+  }
+}
+
+// Every number in a sentence of the first screen is computed again from teams.csv.
+void expect_printed_is_computed(const nlohmann::json& overview, const TeamMeans& means) {
+  const auto all = means.teams(false) + means.teams(true);
+  for (const auto& answer : overview.at("answers")) {
+    const auto question = answer.at("question").get<std::string>(), outcome = answer.at("outcome").get<std::string>();
+    const bool is_share = outcome.find("periods") == std::string::npos;
+    Sentences printed{answer.at("means")};
+    if (question.starts_with("Together compared")) {
+      printed.each("([0-9.]+) and ([0-9.]+)", [&](const std::smatch& match) {
+        expect_reads(match[1], means.of(outcome, false), is_share);
+        expect_reads(match[2], means.of(outcome, true), is_share);
+      });
+    }
+    if (question.starts_with("Taught ")) {
+      printed.each("[0-9.]+", [&](const std::smatch& match) {
+        expect_reads(match[0], means.of(outcome, question != "Taught together"), is_share);
+      });
+    }
+  }
+
+  const auto expect_change = [&](const std::smatch& match) {
+    const auto outcome = match[3].str() + "periods";
+    const double change = means.of(outcome, false) / means.of(outcome, true) - 1.0;
+    EXPECT_EQ(match[2] == "fewer", change < 0.0) << match[0];
+    expect_reads(match[1], 100.0 * std::abs(change));
+  };
+  const auto expect_done = [&](const std::smatch& match) {
+    EXPECT_EQ(match[1], std::to_string(means.completed()));
+    EXPECT_EQ(match[2], std::to_string(all));
+  };
+  std::string said = overview.at("finding");
+  for (const auto& limit : overview.at("limits")) said += "\n" + limit.get<std::string>();
+  Sentences sentences{said};
+  sentences.each("needed ([0-9.]+) periods on average", [&](const std::smatch& match) {
+    expect_reads(match[1], means.of("periods", means.teams(false) == 0));
+  });
+  sentences.each("([0-9]+) % (fewer|more) (person-|)periods", expect_change);
+  sentences.each("([0-9]+) of ([0-9]+) (teams? |)(passed|were)", expect_done);
+  sentences.each("is ([0-9.]+)( together and ([0-9.]+) one after the other|) on average",
+                 [&](const std::smatch& match) {
+                   const auto outcome = overview.contains("leads") ? "share right in the exam" : "knowledge at the end";
+                   expect_reads(match[1], means.of(outcome, means.teams(false) == 0), true);
+                   if (match[3].matched) expect_reads(match[3], means.of(outcome, true), true);
+                 });
+  sentences.each(
+      "([0-9.]+) periods are ([0-9.]+) person-periods; one after the other, ([0-9.]+) periods are ([0-9.]+) ",
+      [&](const std::smatch& match) {
+        for (const bool alone : {false, true}) {
+          expect_reads(match[alone ? 3 : 1], means.of("periods", alone));
+          expect_reads(match[alone ? 4 : 2], means.of("person-periods", alone));
+        }
+      });
+  sentences.each(
+      "from ([0-9.]+) demonstrations and tests on average \\([^()]*\\) to ([0-9.]+) \\([^()]*, ([0-9]+) % more\\)",
+      [&](const std::smatch& match) {
+        const auto [fewest, most] = means.fewest_and_most_items();
+        expect_reads(match[1], fewest);
+        expect_reads(match[2], most);
+        expect_reads(match[3], 100.0 * (most / fewest - 1.0));
+      });
+  sentences.each(": ([0-9.]+) and ([0-9.]+) on average \\(n = ([0-9]+)\\)", [&](const std::smatch& match) {
+    expect_reads(match[1], means.of("periods", false));
+    expect_reads(match[2], means.of("periods", true));
+    EXPECT_EQ(match[3], std::to_string(std::min(means.teams(false), means.teams(true))));
+  });
+  sentences.each("for ([0-9]+) periods together(, and ([0-9]+)| or) one after", [&](const std::smatch& match) {
+    expect_reads(match[1], means.of("periods", false));
+    expect_reads(match[3].matched ? match[3] : match[1], means.of("periods", true));
+  });
+  sentences.each("after ([0-9]+) periods", [&](const std::smatch& match) {
+    expect_reads(match[1], means.of("periods", means.teams(false) == 0));
+  });
+  // What the models estimate, and how many of what there is, is in the answers.
+  sentences.each("differ(: [0-9.]+ to [0-9.]+ [a-z -]+|) \\(n = [0-9]\\)", [](const std::smatch&) {});
+  sentences.each("the [0-9]+ strategies|[0-9]+ of [0-9]+ planned", [](const std::smatch&) {});
+  EXPECT_FALSE(sentences.has_numbers()) << sentences.text();
+}
+
 // A run of the study in this folder, with its analysis and its report.
 void expect_honest_run(const Atlas& atlas, const StudyReading& reading, const std::filesystem::path& folder) {
   StudyRunOptions options;
@@ -146,7 +342,11 @@ void expect_honest_run(const Atlas& atlas, const StudyReading& reading, const st
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInfeasible) << error.what();
   }
-  EXPECT_FALSE(has_no_number(build_report(folder)));
+  const auto report = build_report(folder);
+  EXPECT_FALSE(has_no_number(report));
+  expect_said_is_shown(report);
+  expect_printed_is_computed(nlohmann::json::parse(report).at("overview"),
+                             {Dataset::read(folder / "tables" / "teams.csv"), reading.study->variants.front()});
 }
 
 // A built-in domain's name, or a file: random ones, with discount or chance, or one whose robot need not arrive.

@@ -47,7 +47,8 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
     if (finding.model.find(formula) == std::string::npos)
       finding.model += (finding.model.empty() ? "" : "; ") + formula;
     auto& result = family.comparisons.emplace_back(
-        ComparisonResult{.name = hypothesis.response + ": " + hypothesis.name, .response = hypothesis.response});
+        ComparisonResult{.name = std::string{outcome_words(hypothesis.response).label} + ": " + hypothesis.name,
+                         .response = hypothesis.response});
     const auto fit = effects_of(model, options.alpha);
     if (!fit) {
       finding.warnings.push_back(

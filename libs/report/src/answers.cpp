@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "kith/analysis/analysis.hpp"
+#include "kith/analysis/decimals.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/stats/tests.hpp"
@@ -50,9 +51,25 @@ std::optional<double> p_of_term(const Finding& finding, const std::string& term)
   return std::nullopt;
 }
 
-std::string two_means(const FirstScreen& screen, const Outcome& outcome) {
-  return fmt::format("{:.{}f}", mean(values_of(screen, outcome, false)), outcome.digits) + " and " +
-         fmt::format("{:.{}f}", mean(values_of(screen, outcome, true)), outcome.digits);
+std::string two_means(const FirstScreen& screen, const Outcome& outcome, const std::string& between) {
+  return means_text({mean(values_of(screen, outcome, false)), mean(values_of(screen, outcome, true))}, outcome.digits,
+                    between);
+}
+
+// The teams of the level of a factor that has the fewest.
+std::size_t fewest_teams(const FirstScreen& screen, const std::string& factor) {
+  std::map<std::string, std::size_t> teams;
+  for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
+    if (is_alone(screen, i)) continue;
+    ++teams[factor == "composition" ? composition_of(screen, i) : series_of(screen, i).strategy];
+  }
+  std::size_t fewest = screen.data.teams.size();
+  for (const auto& [level, count] : teams) fewest = std::min(fewest, count);
+  return fewest;
+}
+
+std::string not_found(const Answer& answer) {
+  return is_of_few(answer) ? "too few teams to tell" : "no difference found";
 }
 
 // The same people taught together, whatever the strategy, and alone, or other people.
@@ -97,8 +114,7 @@ Extremes extremes_of(const Finding& finding, const std::string& factor, int digi
     }
   }
   if (!(least <= most)) return {};
-  return {fmt::format("{:.{}f} to {:.{}f}", least, digits, most, digits),
-          "yes: lowest " + least_name + ", highest " + most_name};
+  return {means_text({least, most}, digits, " to "), "yes: lowest " + least_name + ", highest " + most_name};
 }
 
 // Means, where there is nothing to compare.
@@ -109,7 +125,7 @@ std::vector<Answer> plain_means(const FirstScreen& screen) {
       const auto values = values_of(screen, outcome, alone);
       if (values.empty()) continue;
       Answer answer{alone ? "Taught one after the other" : "Taught together", outcome.name, outcome.digits};
-      answer.means = fmt::format("{:.{}f}", mean(values), outcome.digits);
+      answer.means = means_text({mean(values)}, outcome.digits, "");
       const auto interval = mean_interval(values);
       answer.estimate = mean(values);
       if (interval) {
@@ -124,11 +140,24 @@ std::vector<Answer> plain_means(const FirstScreen& screen) {
 
 }  // namespace
 
+std::string means_text(const std::vector<double>& means, int digits, const std::string& between) {
+  const int decimals = digits == kPeriods.digits ? digits : share_decimals(means, digits);
+  std::string text;
+  for (const double mean : means) text += (text.empty() ? "" : between) + fixed_text(mean, decimals);
+  return text;
+}
+
+bool is_of_few(const Answer& answer) {
+  constexpr std::size_t kFew = 10;
+  return answer.teams < kFew;
+}
+
 bool is_shown(const Answer& answer) { return answer.p && *answer.p < AnalysisOptions{}.alpha; }
 
 Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
   Answer answer{"Together compared with one after the other", outcome.name, outcome.digits};
-  answer.means = two_means(screen, outcome);
+  answer.means = two_means(screen, outcome, " and ");
+  answer.teams = std::min(values_of(screen, outcome, false).size(), values_of(screen, outcome, true).size());
 
   if (const auto* finding = finding_of(screen, outcome.id + "-baseline"); finding != nullptr) {
     answer.finding = finding->id;
@@ -146,7 +175,7 @@ Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
 
   const double together = mean(values_of(screen, outcome, false)), alone = mean(values_of(screen, outcome, true));
 
-  answer.answer = "no difference found";
+  answer.answer = not_found(answer);
   if (!answer.p) answer.answer = "not tested";
   if (is_shown(answer)) {
     answer.answer = together < alone ? "less together" : "more together";
@@ -165,7 +194,8 @@ std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& out
   if (!answer.p) return std::nullopt;
   const auto extremes = extremes_of(*finding, factor, outcome.digits);
   answer.means = extremes.means;
-  answer.answer = is_shown(answer) ? extremes.answer : "no difference found";
+  answer.teams = fewest_teams(screen, factor);
+  answer.answer = is_shown(answer) ? extremes.answer : not_found(answer);
   const auto* pairs = comparisons_of(*finding, ComparisonFamily::Kind::kPairs, factor);
   if (pairs == nullptr) return answer;
 
@@ -195,7 +225,8 @@ std::vector<Answer> planned(const FirstScreen& screen) {
                   finding->id};
     set_difference(comparison, answer);
     answer.p = p_of(comparison);
-    answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : "no difference found";
+    answer.teams = fewest_teams(screen, "strategy");
+    answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : not_found(answer);
     list.push_back(std::move(answer));
   }
   return list;

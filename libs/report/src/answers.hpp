@@ -20,7 +20,14 @@ struct Answer {
   std::optional<double> bound{};  // any two levels differ by less
   std::optional<double> p{};
   std::string answer{};
+  std::size_t teams = 0;  // the fewest that are compared, of a level
 };
+
+// Whether there are so few teams that no difference says next to nothing.
+[[nodiscard]] bool is_of_few(const Answer& answer);
+
+// "6.3 and 10.3", shares with as many decimals as they need.
+[[nodiscard]] std::string means_text(const std::vector<double>& means, int digits, const std::string& between);
 
 [[nodiscard]] bool is_shown(const Answer& answer);
 

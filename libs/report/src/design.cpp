@@ -12,12 +12,24 @@ std::string settings_text(const std::vector<FactorSetting>& settings) {
   return text;
 }
 
+// "process noise 0.02, particles 500": for people who see what else varies.
+std::string settings_words(const std::vector<FactorSetting>& settings) {
+  std::string text;
+  for (const auto& setting : settings) {
+    auto key = setting.key.substr(setting.key.rfind('.') + 1);
+    std::replace(key.begin(), key.end(), '_', ' ');
+    text += (text.empty() ? "" : ", ") + key + " " + setting.value;
+  }
+  return text;
+}
+
 ReportDesign::Series series_of(const RunFiles& run, const TeamAddress& address) {
   const auto settings = settings_text(run.study.variants[address.variant].factors);
   ReportDesign::Series series{address.strategy, label_of(address.strategy), address.strategy, address.variant, {}};
   if (settings.empty()) return series;
   series.code += " [" + settings + "]";
-  series.label += ", " + settings;
+  const auto words = settings_words(run.study.variants[address.variant].factors);
+  series.label = run.spec().strategies.size() == 1 ? label_of(words) : series.label + ", " + words;
   return series;
 }
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "answers.hpp"
+#include "kith/analysis/decimals.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/teaching/strategy.hpp"
@@ -27,9 +29,19 @@ std::string headline_about_alone(const FirstScreen& screen) {
   if (is_shown(people))
     people_text = change_text(mean_of(kPersonPeriods, false), mean_of(kPersonPeriods, true)) + " person-periods";
 
+  if (has_fixed_periods(screen)) {
+    return fmt::format(
+        "every team was taught for {:.0f} periods together{}", together,
+        together == alone ? " or one after the other" : fmt::format(", and {:.0f} one after the other", alone));
+  }
   if (!is_shown(periods)) {
-    const std::string text =
-        "no difference in periods was found between teaching a team together and one after the other";
+    const auto text =
+        is_of_few(periods)
+            ? fmt::format(
+                  "too few teams to tell whether teaching together takes fewer periods than one after the "
+                  "other: {} on average (n = {})",
+                  periods.means, periods.teams)
+            : "no difference in periods was found between teaching a team together and one after the other";
     return people_text.empty() ? text : text + ", but teaching together takes " + people_text;
   }
   std::string text =
@@ -40,15 +52,39 @@ std::string headline_about_alone(const FirstScreen& screen) {
 }
 
 std::string headline_about(const FirstScreen& screen, const std::string& factor, const std::string& levels) {
-  const auto periods = answer_about(screen, kPeriods, factor, "");
+  const bool is_fixed = has_fixed_periods(screen);
+  const auto periods = is_fixed ? std::nullopt : answer_about(screen, kPeriods, factor, "");
   const auto knowledge = answer_about(screen, known(screen), factor, "");
   if (!periods && !knowledge) return "";
   const bool on_periods = periods && is_shown(*periods), on_knowledge = knowledge && is_shown(*knowledge);
   const auto name = known(screen).name;
   if (on_periods && on_knowledge) return levels + " differ in periods and in " + name;
   if (on_periods) return levels + " differ in periods, but not detectably in " + name;
+  if (on_knowledge && is_fixed) {
+    const double periods_of_all = values_of(screen, kPeriods, num_together(screen) == 0).front();
+    return fmt::format("{} differ in {} after {:.0f} periods", levels, name, periods_of_all);
+  }
   if (on_knowledge) return levels + " differ in " + name + ", but not detectably in periods";
-  return "no difference between " + levels + " was found";
+  const auto& answer = knowledge ? *knowledge : *periods;
+  if (!is_of_few(answer)) return "no difference between " + levels + " was found";
+  const auto means = answer.means.empty() ? "" : ": " + answer.means + " " + answer.outcome;
+  return fmt::format("too few teams to tell whether {} differ{} (n = {})", levels, means, answer.teams);
+}
+
+// How much the strategies showed, where that may be why people know more.
+std::string dose_text(const FirstScreen& screen) {
+  constexpr double kAlike = 1.1;
+  std::map<std::string, Values> items;
+  for (std::size_t i = 0; i < screen.data.teams.size(); ++i)
+    if (!is_alone(screen, i)) items[series_of(screen, i).label].push_back(screen.data.teams[i].items);
+  const auto by_mean = [](const auto& a, const auto& b) { return mean(a.second) < mean(b.second); };
+  const auto [least, most] = std::minmax_element(items.begin(), items.end(), by_mean);
+  if (items.size() < 2 || mean(least->second) <= 0.0 || mean(most->second) < kAlike * mean(least->second)) return "";
+  return fmt::format(
+      "Not everybody saw equally much: from {:.1f} demonstrations and tests on average ({}) to {:.1f} ({}, {:.0f} % "
+      "more). Part of a difference may be due to that.",
+      mean(least->second), least->first, mean(most->second), most->first,
+      100.0 * (mean(most->second) / mean(least->second) - 1.0));
 }
 
 std::size_t num_completed(const FirstScreen& screen) {
@@ -85,7 +121,7 @@ std::string headline(const FirstScreen& screen) {
     parts.push_back((num_together(screen) == 0 ? "members taught one after the other needed " : "teams needed ") +
                     fmt::format("{:.{}f}", mean(periods), 1) + " periods on average, and " +
                     std::to_string(num_completed(screen)) + " of " + std::to_string(screen.data.teams.size()) +
-                    " passed all tests");
+                    (screen.by_tests ? " passed all tests" : " were taught to the end"));
   }
 
   std::string text;
@@ -96,6 +132,8 @@ std::string headline(const FirstScreen& screen) {
 Json answers(const FirstScreen& screen) {
   Json list = Json::array();
   for (const auto& answer : all_answers(screen)) {
+    const int digits =
+        answer.low && answer.high ? interval_decimals(*answer.low, *answer.high, answer.digits) : answer.digits;
     list.push_back({{"question", answer.question},
                     {"outcome", answer.outcome},
                     {"means", answer.means},
@@ -104,7 +142,7 @@ Json answers(const FirstScreen& screen) {
                     {"low", number(answer.low)},
                     {"high", number(answer.high)},
                     {"bound", number(answer.bound)},
-                    {"digits", answer.digits},
+                    {"digits", digits},
                     {"p", number(answer.p)},
                     {"answer", answer.answer},
                     {"finding", answer.finding}});
@@ -128,14 +166,15 @@ Json limits(const FirstScreen& screen) {
     const auto values = values_of(screen, outcome, alone);
     if (values.empty()) continue;
     if (!means.empty()) means += " and ";
-    means += fmt::format("{:.{}f}", mean(values), 2);
+    means += means_text({mean(values)}, outcome.digits, "");
     if (compares_with_alone(screen)) means += alone ? " one after the other" : " together";
   }
 
   if (!means.empty()) {
     list.push_back(
-        "Passing all tests is not knowing everything: " + std::to_string(num_completed(screen)) + " of " +
-        counted(teams.size(), "team") + " passed (by the rule of mastery), while " +
+        (screen.by_tests ? "Passing all tests" : "Being taught to the end") +
+        std::string{" is not knowing everything: "} + std::to_string(num_completed(screen)) + " of " +
+        counted(teams.size(), "team") + (screen.by_tests ? " passed" : " were") + ", while " +
         (screen.data.leads_with_exam
              ? "the share of starts from which members predict the robot correctly is "
              : "the share of a member's belief under which the robot would act as it does everywhere (knowledge) is ") +
@@ -151,10 +190,14 @@ Json limits(const FirstScreen& screen) {
                    "; one after the other, " + count(true) + ".");
   }
 
+  if (auto text = dose_text(screen); !text.empty()) list.push_back(std::move(text));
+
   const auto all = all_answers(screen);
-  if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.bound.has_value(); })) {
+  if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.p && !is_shown(one); })) {
     list.push_back(
-        "\"No difference found\" does not say that there is none. The table gives how large one may still be.");
+        "\"No difference found\" and \"too few teams to tell\" do not say that there is none. The table gives how "
+        "large "
+        "one may still be.");
   }
   return list;
 }

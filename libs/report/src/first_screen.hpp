@@ -13,6 +13,7 @@ struct FirstScreen {
   const std::vector<Finding>& findings;
   bool simulated = true;  // or real people
   bool paired = false;    // a replicate is the same people under every strategy
+  bool by_tests = true;   // whether teaching goes on until all tests are passed
 };
 
 // What was found, as one sentence.

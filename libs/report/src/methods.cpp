@@ -102,6 +102,8 @@ class Paragraph {
     say("We simulated " + counted(data_.teams.size(), "team") + " of " + members +
         (sizes == std::set<std::size_t>{1} ? " learner" : " learners") + " with " + program() + " and random seed " +
         std::to_string(spec_.seed) + ".");
+    for (const auto& before : run_.manifest.value("grown", std::vector<std::string>{}))
+      say("Teams were added to a run that had " + before + ".");
 
     say("The design crossed " + counted(names.size(), "teaching strategy", "teaching strategies") +
         cite_("jayaraman2024") + ", " + listed(names) + ", with " +

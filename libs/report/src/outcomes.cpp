@@ -26,6 +26,14 @@ Values values_of(const FirstScreen& screen, const Outcome& outcome, bool alone) 
   return values;
 }
 
+bool has_fixed_periods(const FirstScreen& screen) {
+  const auto is_fixed = [&](bool alone) {
+    const auto periods = values_of(screen, kPeriods, alone);
+    return std::all_of(periods.begin(), periods.end(), [&](double value) { return value == periods.front(); });
+  };
+  return screen.data.teams.size() > screen.design.cells.size() && is_fixed(false) && is_fixed(true);
+}
+
 bool compares_with_alone(const FirstScreen& screen) {
   const auto& series = screen.design.series;
   const auto alone = std::count_if(series.begin(), series.end(), [](auto& one) { return one.strategy == kBaseline; });
@@ -42,8 +50,11 @@ Outcome known(const FirstScreen& screen) {
 
 // A period of a team takes the time of everybody in it, so that the comparison with teaching alone needs both counts.
 std::vector<Outcome> outcomes_of(const FirstScreen& screen) {
-  std::vector<Outcome> outcomes{kPeriods};
-  if (compares_with_alone(screen)) outcomes.push_back(kPersonPeriods);
+  std::vector<Outcome> outcomes;
+  if (!has_fixed_periods(screen)) {
+    outcomes.push_back(kPeriods);
+    if (compares_with_alone(screen)) outcomes.push_back(kPersonPeriods);
+  }
   outcomes.push_back(known(screen));
   if (screen.data.has_exam && !screen.data.leads_with_exam) {
     outcomes.push_back({columns::kExamShareRight, "share right in the exam", &TeamValues::exam_share_right, 2});

@@ -33,6 +33,9 @@ inline const Outcome kPersonPeriods{"person-periods", "person-periods", &TeamVal
 // Strategies that teach a team together.
 [[nodiscard]] std::size_t num_together(const FirstScreen& screen);
 
+// Whether every team had as many periods as any other that was taught together, or alone: counting finds out nothing.
+[[nodiscard]] bool has_fixed_periods(const FirstScreen& screen);
+
 // The finite values of the teams that were taught together, or alone.
 [[nodiscard]] Values values_of(const FirstScreen& screen, const Outcome& outcome, bool alone);
 

@@ -41,8 +41,12 @@ Json knowledge_by_period_table(const RunFiles& run, const ReportDesign& design, 
     if (!enough(values.size(), people)) continue;
     auto row = person_keys(run, design, key);
     row.push_back(key[3]);
-    add_interval(row, values);
-    row.push_back(values.size());
+    auto all = values;  // and of those who are no longer taught, what they knew last
+    for (const auto& [end, known] : data.knowledge_at_end) {
+      if (end[0] == key[0] && end[1] == key[1] && end[3] < key[3]) all.insert(all.end(), known.begin(), known.end());
+    }
+    add_interval(row, all);
+    row.push_back(all.size());
     table.add(std::move(row));
   }
   return std::move(table).take();

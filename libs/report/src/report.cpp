@@ -15,6 +15,7 @@
 #include "lessons.hpp"
 #include "matrices.hpp"
 #include "methods.hpp"
+#include "outcomes.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
 #include "session_report.hpp"
@@ -123,6 +124,14 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
           {"columns", headings()}};
 }
 
+// ", at 6 settings of teacher.process_noise and teacher.particles"
+std::string settings_of(const RunFiles& run) {
+  if (run.spec().factors.empty()) return "";
+  std::string keys;
+  for (const auto& factor : run.spec().factors) keys += (keys.empty() ? "" : " and ") + factor.key;
+  return ", at " + std::to_string(run.study.variants.size()) + " settings of " + keys;
+}
+
 // "300 teams of 3 simulated people were taught what a robot does, in 5 ways."
 std::string summary_of(const RunFiles& run, const RunData& data) {
   const auto by_size = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
@@ -134,7 +143,7 @@ std::string summary_of(const RunFiles& run, const RunData& data) {
   return std::to_string(teams) + (teams == 1 ? " team of " : " teams of ") + people + " simulated " +
          (most->size() == 1 ? "person" : "people") + (teams == 1 ? " was" : " were") +
          " taught how a robot decides by watching what it does, in " + std::to_string(ways) +
-         (ways == 1 ? " way." : " ways.");
+         (ways == 1 ? " way" : " ways") + settings_of(run) + ".";
 }
 
 Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis) {
@@ -150,12 +159,15 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
   const FirstScreen screen{.design = design,
                            .data = data,
                            .findings = analysis.findings,
-                           .paired = run.spec().pairing == Pairing::kReplicate};
+                           .paired = run.spec().pairing == Pairing::kReplicate,
+                           .by_tests = run.spec().teaching.mastery == stop_rule_named("all-right")};
 
   Json overview{{"simulated", true},
                 {"teams", data.teams.size()},
                 {"people", design.people},
                 {"completed", completed},
+                {"done", screen.by_tests ? "passed all tests" : "were taught to the end"},
+                {"fixed_periods", has_fixed_periods(screen)},
                 {"skipped", skipped},
                 {"replicates", run.spec().replicates},
                 {"seed", std::to_string(run.spec().seed)},
@@ -264,6 +276,10 @@ void note_data(const RunFiles& run, const ReportDesign& design, const RunData& d
                std::vector<std::string>& notes) {
   for (const auto& what : run.published.missing())
     notes.push_back("The run is incomplete, and all results describe only the teams that are present: " + what + ".");
+  for (const auto& before : run.manifest.value("grown", std::vector<std::string>{}))
+    notes.push_back("The run had " + before +
+                    ", and teams were added later. If those were analysed, the tests below are "
+                    "not tests of one planned sample.");
   note_impoverished_beliefs(data, notes);
   const auto skipped = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return t.skipped; });
   if (skipped > 0) {

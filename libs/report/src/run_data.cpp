@@ -291,6 +291,7 @@ class DataReader {
   void read_progress() {
     std::size_t team = kNoTeam;
     std::vector<std::size_t> seen;  // shape [members, components]: periods of the component so far
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<PeopleKey, double>> last;  // by team and member
     read_table("progress.csv",
                {columns::kPeriod, columns::kComponent, columns::kMember, columns::kAbility, columns::kBelief},
                [&](const StudyRow& row) {
@@ -303,8 +304,14 @@ class DataReader {
                  const auto in_component = ++seen[member * data_.num_components + kc];
                  if (row.has(columns::kAbility))
                    data_.ability[{series, type, kc, in_component}].push_back(fraction(row, columns::kAbility));
-                 data_.knowledge[{series, type, 0, period}].push_back(fraction(row, columns::kBelief));
+                 const double known = fraction(row, columns::kBelief);
+                 data_.knowledge[{series, type, 0, period}].push_back(known);
+                 last[{team, member}] = {{series, type, 0, period}, known};
                });
+    for (const auto& [person, value] : last) {
+      const auto& [key, known] = value;
+      data_.knowledge_at_end[key].push_back(known);
+    }
   }
 
   void read_responses() {

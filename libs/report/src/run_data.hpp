@@ -98,6 +98,7 @@ struct RunData {
   std::size_t num_components = 0;           //
   std::vector<ComponentValues> components;  // shape [teams, num_components], row-major
   PeopleValues knowledge;                   // component 0
+  PeopleValues knowledge_at_end;            // of those who were taught last in this period
   PeopleValues ability;
   std::map<PeopleKey, Answers> answers;
   bool has_exam = false;

@@ -116,6 +116,8 @@ export interface Report {
     teams?: number;
     people?: number;
     completed?: number;
+    done?: string; // what those have come to: "passed all tests"
+    fixed_periods?: boolean; // every team had as many
     skipped?: number;
     replicates?: number;
     seed?: string | number;

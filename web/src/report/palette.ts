@@ -3,7 +3,7 @@ import { color } from '../shared/theme';
 import type { Report } from './document';
 import type { Words } from './words';
 
-const kShapes = ['square', 'circle', 'triangle-up', 'diamond', 'triangle-down', 'cross', 'triangle-right', 'stroke'];
+const kShapes = ['square', 'circle', 'triangle-up', 'diamond', 'triangle-down', 'cross', 'triangle-right', 'triangle-left'];
 const kDashes = [
   [1, 0],
   [1, 0],

@@ -61,6 +61,13 @@ export function extent(values: (number | null)[], zero = false): [number, number
   return low === high ? [low - 0.5, high + 0.5] : [low, high];
 }
 
+// Whole numbers within a domain, at most so many: periods, of which none lies between two.
+export function wholeTicks([low, high]: [number, number], most: number): number[] {
+  const step = Math.max(1, Math.ceil((high - low) / Math.max(1, most)));
+  const first = Math.ceil(low / step) * step;
+  return Array.from({ length: Math.max(0, Math.floor((high - first) / step) + 1) }, (_, i) => first + i * step);
+}
+
 // A domain that ends at round ticks, so that the axes of neighbours reach equally high.
 export function roundTicks([low, high]: [number, number], count = 5): { domain: [number, number]; values: number[] } {
   const rough = (high - low) / count;

@@ -13,11 +13,13 @@ export class Study {
   readonly words: Words;
   readonly palette: Palette;
   readonly factors: string[];
+  readonly hasFixedPeriods: boolean; // of every team as many: nothing to draw
 
   constructor(readonly report: Report) {
     this.words = new Words(report);
     this.palette = new Palette(report, this.words);
     this.factors = factorKeys(report);
+    this.hasFixedPeriods = report.overview.fixed_periods === true;
   }
 
   // Null where the run's recording level does not give the table, or it has no rows.

@@ -4,7 +4,7 @@ import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import type { Look } from '../palette';
 import { strategyLegend } from '../legend';
-import { type Place, extent, panels, roundTicks, yAxis } from '../panels';
+import { type Place, extent, panels, roundTicks, wholeTicks, yAxis } from '../panels';
 
 export interface CurvesOptions {
   looks: Look[];
@@ -45,11 +45,10 @@ function layers(
     scale: { domain: domains.x, nice: false },
     axis: {
       title: place.lastRow || panel.xTitle ? xTitle : null,
-      tickMinStep: 1,
+      values: wholeTicks(domains.x, Math.floor(place.width / 36)),
       format: 'd',
       grid: false,
       labelFlush: false,
-      tickCount: Math.floor(place.width / 36),
     },
   };
   const yScale: Spec = { domain: domains.y.domain, zero: false, nice: false };

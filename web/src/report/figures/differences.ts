@@ -45,6 +45,7 @@ function spec(study: Study, { factor, rows }: Group, outcomes: Differences['outc
       return { label: names[i] ?? '', mean: one?.estimate ?? null, low: one?.low ?? null, high: one?.high ?? null };
     }),
   }));
+  const left = width >= kWide ? 226 : 104;
   return dots(
     {
       looks,
@@ -55,7 +56,7 @@ function spec(study: Study, { factor, rows }: Group, outcomes: Differences['outc
       xTitle: 'Difference',
       zero: true,
       ownScales: true,
-      left: width >= kWide ? 226 : 104,
+      left: study.factors.length > 0 ? undefined : left,
       strategyOf: (row) => String(row.label),
     },
     width,
@@ -66,7 +67,7 @@ function reading(study: Study, { factor, against, rows }: Group, interval: strin
   const n = counted(rows.flatMap(({ differences }) => differences).map((one): Row => ({ n: one.n })), 'n', 'a row');
   const [name, meaning] =
     factor === 'strategy'
-      ? [study.words.strategy(against).toLowerCase(), study.words.plainStrategy(against)]
+      ? [study.words.strategy(against).toLowerCase(), study.factors.length > 0 ? '' : study.words.plainStrategy(against)]
       : [against, study.words.plainComposition(against)];
   return `Right of the line is more than with ${name}${meaning ? ` (${meaning})` : ''}. Bars are 95\u00a0% intervals: ${interval}; every panel has a scale of its own. ${n} ${study.words.letters()}`;
 }
@@ -82,7 +83,8 @@ export function differencesFigures(study: Study): Figure[] {
       const values = list.map(({ estimate }, k) => `${names[k] ?? ''} ${formatFixed(estimate, outcomes[k]?.digits ?? 2)}`);
       return `${code} minus ${group.against}: ${values.join(', ')}`;
     });
-    const what = group.factor === 'strategy' ? 'strategies' : 'compositions of the team';
+    const ofStrategies = study.factors.length > 0 ? 'settings' : 'strategies';
+    const what = group.factor === 'strategy' ? ofStrategies : 'compositions of the team';
     return {
       id: `differences-${group.factor}`,
       title: `Differences between ${what}: ${listOf(names)}`,

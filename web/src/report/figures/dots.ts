@@ -15,10 +15,11 @@ export interface DotsOptions {
   xTitle: string;
   interval?: string; // what low and high are; '95 %' unless said otherwise
   zero: boolean;
+  possible?: [number, number] | undefined; // what values can be: the axis and the intervals are cut there
   log?: boolean;
   opensTeams?: boolean; // a click on a point shows the team
   ownScales?: boolean; // panels that are not compared with each other
-  left?: number; // room for the names, px; '|' breaks a line
+  left?: number | undefined; // room for the names, px; '|' breaks a line
   first?: number | undefined; // panels before these, where the figure has others too
   strategyOf(row: Row): string; // its label
 }
@@ -43,7 +44,7 @@ function layers(
       title: null,
       ticks: false,
       domain: false,
-      labelLimit: (options.left ?? kLeft) + 12,
+      labelLimit: leftOf(options) + 12,
       labelExpr: "split(datum.label, '|')",
       labelPadding: 6,
       labelFontSize: 12,
@@ -74,11 +75,13 @@ function layers(
     scale: scale(options.looks.map((look) => look.shape)),
     legend: null,
   };
+  const [from, to] = options.possible ?? [-Infinity, Infinity];
+  const cut = (value: number | null): number | null => (value === null ? null : Math.min(to, Math.max(from, value)));
   const means = panel.means.map((row) => ({
     strategy: options.strategyOf(row),
     mean: num(row[options.mean]),
-    low: num(row[options.low]),
-    high: num(row[options.high]),
+    low: cut(num(row[options.low])),
+    high: cut(num(row[options.high])),
   }));
   const seen = new Map<string, number>();
   const points = (panel.points ?? []).map((row) => {
@@ -151,14 +154,17 @@ function domainOf(options: DotsOptions, list: DotsOptions['panels']): [number, n
   const [least, most] = extent(values, options.zero);
   if (options.log) return [least / 1.04, most * 1.04];
   const margin = 0.03 * (most - least); // so that marks at the ends are whole
-  return [options.zero && least === 0 ? 0 : least - margin, most + margin];
+  const low = options.zero && least === 0 ? 0 : least - margin;
+  const [from, to] = options.possible ?? [-Infinity, Infinity];
+  return [Math.max(low, from - margin), Math.min(most + margin, to + margin)];
 }
 
-const kLeft = 104;
+// Room for the longest name, at most a third of a page.
+const leftOf = ({ left, looks }: DotsOptions): number => left ?? Math.min(280, Math.max(104, ...looks.map(({ label }) => 6.5 * label.length)));
 
 export function dots(options: DotsOptions, width: number): Spec {
   const shared = domainOf(options, options.panels);
-  return panels(options.panels.length, width, { left: options.left ?? kLeft, min: 124, gap: 26, rowGap: options.ownScales ? 70 : 48, first: options.first }, (i, place) => {
+  return panels(options.panels.length, width, { left: leftOf(options), min: 124, gap: 26, rowGap: options.ownScales ? 70 : 48, first: options.first }, (i, place) => {
     const panel = options.panels[i];
     return panel ? layers(options, panel, place, options.ownScales ? domainOf(options, [panel]) : shared) : {};
   });

@@ -16,14 +16,18 @@ interface Panel {
   rows: Row[];
 }
 
-function panelsOf(rows: Row[]): Panel[] {
+// An interval of shares ends where shares do.
+const possible = ({ column }: Panel, value: number | null): number | null =>
+  value === null || column !== 'knowledge' ? value : Math.min(1, Math.max(0, value));
+
+function panelsOf(rows: Row[], hasFixedPeriods: boolean): Panel[] {
   const group = rows.filter((row) => row.strategy !== 'baseline');
   const baseline = rows.filter((row) => row.strategy === 'baseline');
   return [
     { title: 'Periods, group strategies', column: 'periods', rows: group },
     { title: 'Periods, baseline', column: 'periods', rows: baseline },
     { title: 'Knowledge', column: 'knowledge', rows },
-  ].filter((panel) => panel.rows.length > 0);
+  ].filter((panel) => panel.rows.length > 0 && !(hasFixedPeriods && panel.column === 'periods'));
 }
 
 function spec(study: Study, list: Panel[], compositions: string[], looks: Look[], width: number): Spec {
@@ -45,8 +49,8 @@ function spec(study: Study, list: Panel[], compositions: string[], looks: Look[]
           at: at + aside,
           composition: String(row.composition),
           mean: num(row[`${panel.column}_mean`]),
-          low: num(row[`${panel.column}_low`]),
-          high: num(row[`${panel.column}_high`]),
+          low: possible(panel, num(row[`${panel.column}_low`])),
+          high: possible(panel, num(row[`${panel.column}_high`])),
         };
       });
       const { domain, values: ticks } = roundTicks(extent(values.flatMap((row) => [row.mean, row.low, row.high])));
@@ -143,7 +147,7 @@ export function interactionFigures(study: Study): Figure[] {
         `Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team. Every panel has a scale of its own, which does not begin at 0. Bars are 95\u00a0% t intervals. ${counted(rows, 'teams', 'teams in a cell')} ${study.words.letters()}`,
       gist: `${title}. Mean periods: ${range(rows, 'periods_mean', name)} Mean knowledge: ${range(rows, 'knowledge_mean', name)}`,
       table: cells,
-      spec: (width) => spec(study, panelsOf(rows), compositions, study.looks(rows), width),
+      spec: (width) => spec(study, panelsOf(rows, study.hasFixedPeriods), compositions, study.looks(rows), width),
     },
   ];
 }

@@ -72,7 +72,8 @@ function figuresOf(study: Study, outcomes: Outcome[]): Figure[] {
   const points = teams ? rowsOf(teams) : [];
   const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
   const n = counted(means, 'teams', 'teams in a cell');
-  const present = outcomes.filter(({ column }) => cells.columns.includes(`${column}_mean`));
+  const isVaried = (column: string): boolean => column !== 'periods' || !study.hasFixedPeriods;
+  const present = outcomes.filter(({ column }) => cells.columns.includes(`${column}_mean`) && isVaried(column));
   return present.map(({ id, column, title, xTitle, reading }) => ({
     id,
     title,
@@ -106,6 +107,7 @@ function spec(
     xTitle,
     opensTeams: study.report.lessons !== undefined,
     zero: !column.includes('share_right'),
+    possible: column === 'knowledge' || column.includes('share_right') ? ([0, 1] as [number, number]) : undefined,
   };
   const part = (rows: Row[], raw: Row[], first?: number): DotsOptions => ({
     ...common,

@@ -29,14 +29,14 @@ function figure(
 
 export function completionFigures(study: Study): Figure[] {
   const table = study.table('completion');
-  if (!table) return [];
+  if (!table || study.hasFixedPeriods) return [];
   return [
     figure(
       study,
       table,
       {
         id: 'completion',
-        title: 'Share of teams that have passed all tests',
+        title: `Share of teams that ${study.report.overview.done ?? 'passed all tests'}`,
         reading:
           `Curves that are steeper and further left are faster. One minus the Kaplan-Meier estimate; bars are 95\u00a0% intervals with Greenwood\u2019s variance, each at some periods only, so that they do not cover each other. For the baseline, periods are summed over members. ${counted(rowsOf(table).filter((row) => row.period === 0), 'at_risk', 'teams in a cell')} ${study.words.letters()}`,
       },
@@ -73,7 +73,7 @@ export function knowledgeFigures(study: Study): Figure[] {
         id: 'knowledge-periods',
         title: 'Knowledge over periods by type of learner',
         reading:
-          `Only people who are still being taught: from period to period these are fewer, and those who learn more slowly. Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% t intervals at some periods. Lines end where too few people are left. ${counted(rowsOf(table), 'people', 'people')}`,
+          `Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% t intervals at some periods. People who are no longer taught count with what they knew last. Lines end where too few people are still taught. ${counted(rowsOf(table), 'people', 'people')}`,
       },
       { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false, possible: [0, 1] },
       byType(study),

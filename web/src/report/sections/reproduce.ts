@@ -20,7 +20,7 @@ function factsList(study: Study): HTMLElement {
       'Teams',
       overview.completed === undefined
         ? count(overview.teams)
-        : `${count(overview.teams)}, of which ${overview.completed} passed all tests (mastery rule)` +
+        : `${count(overview.teams)}, of which ${overview.completed} ${overview.done ?? 'passed all tests'}` +
           (overview.skipped ? ` and ${overview.skipped} left components out` : ''),
     ],
     ['People', count(overview.people)],

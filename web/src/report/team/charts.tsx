@@ -93,7 +93,7 @@ export function KnowledgeChart({ rows, names, periods }: { rows: (number | null)
         })}
       </svg>
       <figcaption>
-        knowledge <span class="muted">at the end: {last.join(', ')}</span>
+        their own knowledge <span class="muted">at the end: {last.join(', ')}</span>
       </figcaption>
     </figure>
   );
