@@ -180,7 +180,7 @@ class Page {
       const auto name = title_of(*person) + (has_groups ? ", " + person->group : "");
       out_ += fmt::format("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>", anchor(*person), svg_escaped(name));
       for (const auto& audit : person->audit.components) {
-        out_ += fmt::format("<td class=\"{}\">{}</td>", name_of(audit.understanding), svg_escaped(verdict(audit)));
+        out_ += fmt::format("<td class=\"{}\">{}</td>", name_of(audit.understanding), in_words(audit.understanding));
       }
       out_ += fmt::format("<td>{}</td></tr>\n", svg_escaped(need_in_words(first_need(person->audit))));
     }
@@ -190,13 +190,7 @@ class Page {
     for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) {
       components += fmt::format("{}{}: {}", k == 0 ? "" : "; ", k + 1, component_in_words(atlas_, k));
     }
-    out_ += tag("p", components + ". Percentages: how often the person is expected to get all of it right.",
-                "class=\"muted\"");
-  }
-
-  static std::string verdict(const ComponentAudit& audit) {
-    if (audit.understanding == Understanding::kNotTaught) return in_words(audit.understanding);
-    return in_words(audit.understanding) + ", " + percent(audit.level.mean);
+    out_ += tag("p", components + ".", "class=\"muted\"");
   }
 
   [[nodiscard]] std::string anchor(const AuditedPerson& person) const {
@@ -268,12 +262,11 @@ class Page {
   }
 
   void level(const ComponentAudit& audit) {
-    out_ += tag(
-        "p", fmt::format("Understands it with probability {}. Expected to get all of it right {} of the time "
-                         "({} interval: {} to {}). {} of {} right in {}.",
-                         percent(audit.level.probability), percent(audit.level.mean),
-                         percent(report_.options.level.coverage), percent(audit.level.low), percent(audit.level.high),
-                         audit.correct, counted(audit.tests, "answer"), counted(audit.periods, "lesson")));
+    const bool is_high = audit.level.probability >= report_.options.sure;
+    const bool is_luck = is_high && audit.understanding == Understanding::kCannotTell;
+    out_ += tag("p", fmt::format("{} of {} right in {}.{}", audit.correct, counted(audit.tests, "answer"),
+                                 counted(audit.periods, "lesson"),
+                                 is_luck ? " Somebody who does not learn may answer like that, too." : ""));
     bar(audit.level);
   }
 
@@ -352,8 +345,9 @@ class Page {
     out_ += tag(
         "p", fmt::format("A person understands a component if, asked at any time, they would predict the robot rightly "
                          "on all of it at least {} of the time. The page says so only if that is at least {} certain. "
-                         "A misconception is named if the person would more likely than not go by it in the next test.",
-                         percent(options.level.enough), percent(options.sure)));
+                         "A misconception is named if the person would more likely than not go by it in the next test. "
+                         "Dot and bar: how often all of it is expected to be right, with its {} interval.",
+                         percent(options.level.enough), percent(options.sure), percent(options.level.coverage)));
     out_ +=
         tag("p", fmt::format("The answers of each group are compared with what the model of how people learn expects "
                              "of it. p is the probability of a number of right answers at least as far from that: "
