@@ -51,10 +51,11 @@ bool is_key_character(char c) { return std::isalnum(static_cast<unsigned char>(c
 // Where `key =` or `"key" =` begins at or after `from`, as code.
 std::size_t find_key(std::string_view text, const Scanner& scanner, std::string_view key, std::size_t from) {
   for (auto at = text.find(key, from); at != kNowhere; at = text.find(key, at + 1)) {
+    const auto end = at + key.size();
     const char before = at > 0 ? text[at - 1] : '\n';
-    const bool is_quoted = (before == '"' || before == '\'') && text.substr(at + key.size()).starts_with(before);
+    const bool is_quoted = (before == '"' || before == '\'') && end < text.size() && text[end] == before;
     if (!is_quoted && (!scanner.is_code(at) || is_key_character(before))) continue;
-    const auto next = text.find_first_not_of(" \t", at + key.size() + (is_quoted ? 1 : 0));
+    const auto next = text.find_first_not_of(" \t", end + (is_quoted ? 1 : 0));
     if (next != kNowhere && text[next] == '=') return is_quoted ? at - 1 : at;
   }
   return kNowhere;
@@ -115,27 +116,30 @@ void remove_options(std::string& text) {
   }
 }
 
-// Where the header of a table begins at or after `from`: the first on its line, and inside of no value.
-std::size_t find_header(std::string_view text, const Scanner& scanner, std::string_view header, std::size_t from) {
-  int depth = 0;
-  bool is_first = true;
-  for (auto at = from; at < text.size(); ++at) {
-    const char c = text[at];
-    if (scanner.is_code(at) && c == '[' && is_first && depth == 0 && text.substr(at).starts_with(header)) return at;
-    if (scanner.is_code(at)) depth += (c == '[' || c == '{' ? 1 : 0) - (c == ']' || c == '}' ? 1 : 0);
-    is_first = c == '\n' || (is_first && (c == ' ' || c == '\t'));
-  }
-  return kNowhere;
-}
-
-// Removes [name] up to the next table.
+// Removes a table, however it is written: [name], ["name"], name = { ... }, name.key = ...
 void remove_table(std::string& text, const std::string& name) {
   const Scanner scanner{text};
-  const std::string header = "[" + name + "]";
-  const auto begin = find_header(text, scanner, header, 0);
-  if (begin == kNowhere) return;
-  const auto next = find_header(text, scanner, "[", std::min(text.find('\n', begin), text.size()));
-  text.erase(begin, next == kNowhere ? kNowhere : next - begin);
+  std::string kept;
+  bool in_root = true, in_table = false;
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end) {
+    int depth = 0;
+    for (bool is_over = false; end < text.size() && !is_over; ++end) {
+      const char c = text[end];
+      if (!scanner.is_code(end)) continue;
+      depth += (c == '[' || c == '{' ? 1 : 0) - (c == ']' || c == '}' ? 1 : 0);
+      is_over = c == '\n' && depth == 0;
+    }
+    const auto statement = text.substr(at, end - at);
+    const auto begin = std::min(statement.find_first_not_of(" \t"), statement.size() - 1);
+    const auto key = std::min(statement.find_first_not_of(" \t[\"'"), statement.size());
+    const bool is_it = statement.substr(key, statement.find_first_of(" \t.]=\"'\r\n", key) - key) == name;
+    if (statement[begin] == '[') {
+      in_root = false;
+      in_table = is_it;
+    }
+    if (!in_table && !(in_root && is_it)) kept += statement;
+  }
+  text = kept;
 }
 
 }  // namespace

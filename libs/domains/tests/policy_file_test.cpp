@@ -130,6 +130,26 @@ TEST(InferredWeights, AreWrittenInPlaceOfTheOldOnesAndRead) {
       text);
 }
 
+TEST(InferredWeights, ReplaceARewardHoweverItIsWritten) {
+  const std::string table = "[reward]   # of nobody\nweights = { mud = -2, step = -1 }\n";
+  const auto at = kCorridor.find(table);
+  const auto with = [&](const std::string& other) {
+    auto text = kCorridor;
+    return text.replace(at, table.size(), other);
+  };
+  const auto rest = with("");
+  for (const auto& old :
+       {with("[\"reward\"]\n\"weights\" = { mud = -9, step = -1 }\n"), with(" [ 'reward' ]\nweights.mud = -9\n"),
+        with("[reward.weights]\nmud = -9\nstep = -1\n"), "reward = { weights = {\nmud = -9, step = -1 } }\n" + rest,
+        "reward.weights = { mud = -9, step = -1 }\r\n" + rest, "'reward'.weights.mud = -9\n" + rest, rest}) {
+    const auto text = with_inferred_weights(old, {"mud", "step"}, {-0.25, -1}, {0.75, 0.125, 0.5}, {});
+    const auto reading = corridor(text);
+    ASSERT_TRUE(reading.domain) << reading.diagnostics.front().message << text;
+    EXPECT_EQ(reading.domain->weights().raw, (std::vector<double>{-0.25, -1})) << text;
+    EXPECT_EQ(reading.domain->prior().size(), 1u) << text;
+  }
+}
+
 TEST(InferredWeights, KnowTheStatesThatTheyDoNotExplain) {
   const InferredWeights inferred{0.75, 0.125, 0.5, 1, {{MdpIndex{0}, StateIndex{1}}, {MdpIndex{0}, StateIndex{2}}}};
   const auto text =
