@@ -45,17 +45,18 @@ Weights centre_of(const Cone& region) {
 Weights rounded(const Weights& w, const Cone& region) {
   const double margin = margin_of(region, w);
   double unit = 10.0;
-  for (int digits = 2; digits < 9; ++digits) {
+  Weights few = w;
+  for (int digits = 2; digits < 10; ++digits) {
     unit *= 10.0;
-    Weights few;
+    few.clear();
     bool some = false;
     for (const double x : w) {
       few.push_back(std::round(x * unit) / unit + 0.0);
       some = some || few.back() != 0.0;
     }
-    if (some && margin_of(region, at_length_1(few)) > 0.9 * margin) return few;
+    if (some && margin_of(region, at_length_1(few)) > 0.9 * margin) break;
   }
-  return w;
+  return few;
 }
 
 class PolicyInference {
@@ -83,7 +84,8 @@ class PolicyInference {
     if (!region) {
       region = region_of(*found);
       auto better = fit_.looked_at(rounded(centre_of(*region), *region));
-      if (better.share >= found->share) found = std::move(better);
+      // Else the weights that were looked at, with digits that exact arithmetic takes.
+      found = better.share >= found->share ? std::move(better) : fit_.looked_at(rounded(found->weights, *region));
     }
     if (*region == prior_) refuse_indifference();
 

@@ -11,6 +11,7 @@
 #include "kith/bec/atlas.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/domains/policy_file.hpp"
 #include "kith/domains/variation.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/random/distributions.hpp"
@@ -115,6 +116,43 @@ TEST(Inference, FindsARegionThatHoldsTheWeightsOfRandomRobots) {
     const auto again = infer_weights(domain, policy_under(domain, found.weights));
     EXPECT_EQ(again.region, found.region) << n;
   }
+}
+
+// A file with the weights that are found is read, also where hardly any are better than others.
+TEST(Inference, FindsWeightsThatExactArithmeticTakes) {
+  const std::string text = R"(schema = "kith.domain/1"
+id = "proportional"
+[mdp]
+discount = 0.95
+actions = ["a0", "a1", "a2", "a3"]
+[model]
+format = "csv"
+states = "s.csv"
+transitions = "t.csv"
+[[feature]]
+name = "f0"
+[[feature]]
+name = "f1"
+[[feature]]
+name = "step"
+[prior]
+halfspaces = [ { step = -1 } ]
+)";
+  const DomainFiles files{{},
+                          {{"s.csv", "state,terminal\ns0,false\ns1,false\ns2,true\n"},
+                           {"t.csv",
+                            "state,action,next,probability,f0,f1,step\ns0,a0,s1,1,0,0,1\ns0,a1,s2,1,1,2,1\n"
+                            "s0,a2,s0,1,0,0,1\ns1,a0,s2,1,0,0,1\ns1,a1,s1,1,2,3,1\ns1,a2,s0,1,0,0,1\n"
+                            "s1,a3,s0,1,0,0,1\n"}}};
+  const auto open = parse_unweighed_domain(text, "proportional", files);
+  ASSERT_TRUE(open.domain) << open.diagnostics.front().message;
+  const auto policy = parse_policy("state,action\ns0,a1\ns1,a3\n", "policy.csv", *open.domain);
+  ASSERT_TRUE(policy.policy) << policy.diagnostics.front().message;
+  const auto found = infer_weights(*open.domain, *policy.policy);
+  EXPECT_TRUE(found.is_optimal);
+  const auto written = with_inferred_weights(text, open.domain->feature_names(), found.weights, as_inferred(found), {});
+  const auto read = parse_domain(written, "written", {}, files);
+  EXPECT_TRUE(read.domain) << read.diagnostics.front().message << written;
 }
 
 TEST(Inference, NamesOddStatesAndStillExplainsTheRest) {
