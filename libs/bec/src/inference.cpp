@@ -22,6 +22,7 @@ constexpr std::size_t kMostPlanned = 4'000'000;  // states, in looking for the b
 constexpr std::size_t kFewestLooks = 32, kMostLooks = 512;  // of those
 constexpr std::size_t kLooksImproved = 6;                   // how many of them
 constexpr std::size_t kMostImprovements = 40;
+constexpr int kFewestDigits = 2, kMostDigits = 8;  // of weights, after the point
 
 Weights as_weights(const Direction& w) { return {w.data(), w.data() + w.size()}; }
 
@@ -41,22 +42,28 @@ Weights centre_of(const Cone& region) {
   return at_length_1(sum);
 }
 
-// Nearly the same direction, with as few digits as leave most of the margin.
+std::optional<Weights> rounded_to(const Weights& w, int digits) {
+  const double unit = std::pow(10.0, digits);
+  Weights few;
+  for (const double x : w) few.push_back(std::round(x * unit) / unit + 0.0);
+  const bool is_zero = std::ranges::all_of(few, [](double x) { return x == 0.0; });
+  return is_zero ? std::nullopt : std::optional{few};
+}
+
+// Nearly the same direction, with as few digits as leave most of the margin, or else as much of it as any do.
 Weights rounded(const Weights& w, const Cone& region) {
   const double margin = margin_of(region, w);
-  double unit = 10.0;
-  Weights few = w;
-  for (int digits = 2; digits < 10; ++digits) {
-    unit *= 10.0;
-    few.clear();
-    bool some = false;
-    for (const double x : w) {
-      few.push_back(std::round(x * unit) / unit + 0.0);
-      some = some || few.back() != 0.0;
-    }
-    if (some && margin_of(region, at_length_1(few)) > 0.9 * margin) break;
+  Weights best = w;
+  double most = 0.0;
+  for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {
+    const auto few = rounded_to(w, digits);
+    const double left = few ? margin_of(region, at_length_1(*few)) : 0.0;
+    if (left <= most) continue;
+    best = *few;
+    most = left;
+    if (left > 0.9 * margin) break;
   }
-  return few;
+  return best;
 }
 
 class PolicyInference {
@@ -67,32 +74,23 @@ class PolicyInference {
   }
 
   WeightInference infer() {
-    WeightInference result;
     std::optional<Look> found;
-    std::optional<Cone> region = optimal_region();
-    if (region) {
-      found = fit_.looked_at(rounded(centre_of(*region), *region));
-      if (found->share < 0.0) found.reset();
+    if (const auto region = optimal_region()) found = fit_.looked_at(rounded(centre_of(*region), *region));
+    if (!found || found->share < 0.0 || !fit_.explains_all_likeliest(*found)) found = search();
+    auto shown = shown_inside(*found);
+    if (const auto tied = is_all(found->share) ? std::nullopt : shown.with_ties()) {
+      auto better = fit_.looked_at(*tied);
+      if (is_all(better.share)) found = std::move(better);
     }
-    result.is_optimal = found && is_all(found->share);
-    if (!found || !fit_.explains_all_likeliest(*found)) {
-      region.reset();
-      found = search();
-      result.is_optimal = is_all(found->share);
-    }
+    WeightInference result;
+    result.is_optimal = is_all(found->share);
     if (!result.is_optimal) refuse_chance(*found);
-    if (!region) {
-      region = region_of(*found);
-      auto better = fit_.looked_at(rounded(centre_of(*region), *region));
-      // Else the weights that were looked at, with digits that exact arithmetic takes.
-      found = better.share >= found->share ? std::move(better) : fit_.looked_at(rounded(found->weights, *region));
-    }
-    if (*region == prior_) refuse_indifference();
+    if (shown.region == prior_) refuse_indifference();
 
     result.weights = found->weights;
-    result.margin = margin_of(*region, at_length_1(found->weights));
-    describe_fit(fit_, *found, *region, result);
-    result.region = *std::move(region);
+    result.margin = std::max(margin_of(shown.region, at_length_1(found->weights)), 0.0);
+    describe_fit(fit_, *found, shown, result);
+    result.region = shown.region;
     if (result.left_out.size() >= fit_.domain().num_starts()) refuse_starts(result);
     return result;
   }
@@ -188,18 +186,26 @@ class PolicyInference {
     return region;
   }
 
-  // Weights under which what is best under those of the look stays best.
-  [[nodiscard]] Cone region_of(const Look& look) const {
-    Cone region = prior_;
-    for (std::size_t m = 0; m < fit_.domain().num_mdps(); ++m) {
-      for (std::size_t s = 0; s < fit_.likeliest(m).size(); ++s) {
-        for (const HalfSpace& half_space : fit_.demands(m, s, look.plans[m].counts, look.plans[m].choice[s])) {
-          if (margin_of(half_space, look.weights) > kExplainTolerance && !region.implies(half_space))
-            (void)region.clip(half_space);
-        }
-      }
+  // What the look explains, and in its place one in the middle of the weights that do: with few digits.
+  [[nodiscard]] ShownRegion shown_inside(Look& look) {
+    constexpr int kMostTurns = 3;
+    auto shown = shown_region(fit_, look, prior_);
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+      auto inside = fit_.looked_at(rounded(centre_of(shown.region), shown.region));
+      if (inside.share < look.share) break;
+      const bool is_as_before = is_all(look.share);
+      look = std::move(inside);
+      if (is_as_before) return shown;
+      shown = shown_region(fit_, look, prior_);
     }
-    return region;
+    for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {
+      const auto few = rounded_to(look.weights, digits);
+      auto next = few ? fit_.looked_at(*few) : Look{};
+      if (next.share < look.share) continue;
+      look = std::move(next);
+      break;
+    }
+    return shown;
   }
 
   // --- what is refused ---
@@ -238,8 +244,8 @@ class PolicyInference {
   }
 
   [[noreturn]] void refuse_indifference() const {
-    refuse("E0342", "nothing follows from this policy: whatever it could have done counts the same",
-           "give the domain features that differ between actions");
+    refuse("E0342", "nothing follows from what was seen: whatever the robot could have done there may count the same",
+           "record more of it, or give the domain features that differ between actions");
   }
 
   [[noreturn]] void refuse_starts(const WeightInference& result) const {

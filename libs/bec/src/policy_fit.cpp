@@ -43,7 +43,9 @@ PolicyFit::PolicyFit(const Domain& domain, const ObservedPolicy& policy) : domai
     auto& likeliest = likeliest_.emplace_back(n, kNoChoice);
     for (std::size_t s = 0; s < n; ++s) {
       num_states_ += 1;
+      if (mdp(m).choices(StateIndex{s}).size() == 1) likeliest[s] = 0;
       if (!is_seen(m, s)) continue;
+      likeliest[s] = kNoChoice;
       num_seen_ += 1;
       const auto first =
           policy_.probability[m].begin() + static_cast<std::ptrdiff_t>(mdp(m).first_choice(StateIndex{s}));
@@ -58,17 +60,24 @@ PolicyFit::PolicyFit(const Domain& domain, const ObservedPolicy& policy) : domai
 
 std::vector<HalfSpace> PolicyFit::demands(std::size_t m, std::size_t s, const std::vector<IntegerVector>& counts,
                                           std::size_t taken) const {
-  const auto choices = mdp(m).choices(StateIndex{s});
-  const auto rest = [&](StateIndex next) -> const IntegerVector& { return counts[next.value()]; };
-  const auto own = counts_of(mdp(m), choices[taken], domain_.count_scale(), rest);
   std::vector<HalfSpace> result;
-  for (std::size_t c = 0; c < choices.size(); ++c) {
-    if (c == taken) continue;
-    const auto half_space =
-        preference(own - counts_of(mdp(m), choices[c], domain_.count_scale(), rest), domain_.count_scale());
-    if (half_space) result.push_back(*half_space);
+  for (std::size_t c = 0; c < mdp(m).choices(StateIndex{s}).size(); ++c) {
+    if (const auto half_space = gain(m, s, counts, taken, c)) result.push_back(*half_space);
   }
   return result;
+}
+
+std::optional<HalfSpace> PolicyFit::gain(std::size_t m, std::size_t s, const std::vector<IntegerVector>& counts,
+                                         std::size_t taken, std::size_t other) const {
+  const auto choices = mdp(m).choices(StateIndex{s});
+  const auto rest = [&](StateIndex next) -> const IntegerVector& { return counts[next.value()]; };
+  const auto scale = domain_.count_scale();
+  return preference(counts_of(mdp(m), choices[taken], scale, rest) - counts_of(mdp(m), choices[other], scale, rest),
+                    scale);
+}
+
+bool PolicyFit::takes(std::size_t m, std::size_t s, std::size_t choice) const {
+  return is_seen(m, s) && policy_.probability[m][mdp(m).first_choice(StateIndex{s}) + choice] > 0.0;
 }
 
 double PolicyFit::worth(const Look& look, std::size_t m, const Weights& w, const Choice& choice) const {
@@ -89,7 +98,7 @@ bool PolicyFit::is_best(const Look& look, std::size_t m, std::size_t s, std::uin
 }
 
 bool PolicyFit::is_explained(const Look& look, std::size_t m, std::size_t s) const {
-  return is_seen(m, s) && is_best(look, m, s, likeliest_[m][s]);
+  return is_best(look, m, s, likeliest_[m][s]);
 }
 
 bool PolicyFit::explains_all_likeliest(const Look& look) const {

@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
 #include <unordered_set>
 #include <vector>
 
@@ -42,7 +45,8 @@ class PolicyFit {
   [[nodiscard]] const Domain& domain() const { return domain_; }
   [[nodiscard]] const Mdp& mdp(std::size_t m) const { return domain_.mdp(MdpIndex{m}); }
   [[nodiscard]] bool is_seen(std::size_t m, std::size_t s) const { return policy_.is_seen[m][s]; }
-  // Per state of an MDP what the robot does most often, a position in choices; or kNoChoice.
+  // Per state of an MDP what the robot does most often, a position in choices; or kNoChoice. Where it has one choice it
+  // takes that, seen or not.
   [[nodiscard]] const std::vector<std::uint32_t>& likeliest(std::size_t m) const { return likeliest_[m]; }
   [[nodiscard]] std::size_t num_states() const { return num_states_; }
   [[nodiscard]] std::size_t num_seen() const { return num_seen_; }
@@ -53,6 +57,11 @@ class PolicyFit {
   // What makes a choice as good as all others, if what comes after it counts so much.
   [[nodiscard]] std::vector<HalfSpace> demands(std::size_t m, std::size_t s, const std::vector<IntegerVector>& counts,
                                                std::size_t taken) const;
+  // What makes it as good as one other; nothing if both count the same.
+  [[nodiscard]] std::optional<HalfSpace> gain(std::size_t m, std::size_t s, const std::vector<IntegerVector>& counts,
+                                              std::size_t taken, std::size_t other) const;
+  // Whether the robot was seen to take a choice.
+  [[nodiscard]] bool takes(std::size_t m, std::size_t s, std::size_t choice) const;
   // The return of a choice if everything after it is best. @param w  at length 1.
   [[nodiscard]] double worth(const Look& look, std::size_t m, const Weights& w, const Choice& choice) const;
   [[nodiscard]] bool is_best(const Look& look, std::size_t m, std::size_t s, std::uint32_t choice) const;
@@ -74,8 +83,24 @@ class PolicyFit {
   std::unordered_set<std::uint64_t> behaviours_;
 };
 
+// What the choices that some weights explain show about the weights.
+struct ShownRegion {
+  // All weights that explain them or, where the robot's way leads on through states in which it was not seen, a region
+  // that holds all of these.
+  Cone region;
+  std::map<HalfSpace, std::set<StartId>> shown_by;  // the states that show a half-space
+  std::vector<HalfSpace> ties;  // what the choices that the robot takes most often gain over others that it takes
+
+  // How many states show a facet; 0 if everybody knows it.
+  [[nodiscard]] std::size_t support_of(const HalfSpace& facet) const;
+  // Weights of the region under which everything that the robot does in one state is equally good; nothing without
+  // ties.
+  [[nodiscard]] std::optional<Weights> with_ties() const;
+};
+[[nodiscard]] ShownRegion shown_region(const PolicyFit& fit, const Look& look, const Cone& prior);
+
 // Tells of the fit what a WeightInference says besides weights and region: the states that are not explained, what
 // they clash with, the sides of the region, and the starts that are left out.
-void describe_fit(const PolicyFit& fit, const Look& look, const Cone& region, WeightInference& result);
+void describe_fit(const PolicyFit& fit, const Look& look, const ShownRegion& shown, WeightInference& result);
 
 }  // namespace kith::detail

@@ -263,6 +263,117 @@ TEST(Inference, UsesWhatWasSeenOnly) {
   for (const auto& id : found.left_out) EXPECT_EQ(id.mdp.value() % 2, 0u);
 }
 
+// Without all but some states.
+void forget(ObservedPolicy& policy, const Mdp& mdp, double share, RandomStream& random) {
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    if (uniform01(random) >= share) continue;
+    policy.is_seen[0][s.value()] = false;
+    for (std::size_t c = 0; c < mdp.choices(s).size(); ++c) policy.probability[0][mdp.first_choice(s) + c] = 0.0;
+  }
+}
+
+// By planning: whether what was seen is best under weights.
+bool explains(const Mdp& mdp, const ObservedPolicy& policy, const std::vector<double>& w) {
+  const auto plan = behave(mdp, w);
+  if (!plan) return false;
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    for (std::size_t c = 0; policy.is_seen[0][s.value()] && c < mdp.choices(s).size(); ++c) {
+      if (policy.probability[0][mdp.first_choice(s) + c] > 0.0 && !is_optimal(mdp, *plan, w, s, c)) return false;
+    }
+  }
+  return true;
+}
+
+// Half of the policies miss states at random, the others are whole paths: of these the region is exact.
+TEST(Inference, HoldsAllWeightsThatExplainWhatWasSeen) {
+  RandomStream random{46};
+  std::size_t explained = 0, narrowed = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Domain domain = grid(random);
+    const Mdp& mdp = domain.mdp(MdpIndex{0});
+    auto policy = policy_under(domain, random_costs(random));
+    const bool is_path = n % 2 == 1;
+    if (is_path) {
+      std::vector<bool> is_on(mdp.num_states(), false);
+      for (auto s = domain.initial_state(MdpIndex{0}); !mdp.is_terminal(s);) {
+        is_on[s.value()] = true;
+        s = mdp.outcomes(mdp.choices(s)[choice_of(policy, mdp, 0, s)]).front().next;
+      }
+      for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+        policy.is_seen[0][s.value()] = is_on[s.value()];
+        for (std::size_t c = 0; !is_on[s.value()] && c < mdp.choices(s).size(); ++c)
+          policy.probability[0][mdp.first_choice(s) + c] = 0.0;
+      }
+    } else {
+      forget(policy, mdp, 0.5, random);
+    }
+    WeightInference found;
+    try {
+      found = infer_weights(domain, policy);
+    } catch (const Error& error) {
+      EXPECT_THAT(error.diagnostics().front().id, ::testing::AnyOf("E0341", "E0342", "E0343")) << n;
+      continue;
+    }
+    if (!found.is_optimal) continue;
+    EXPECT_TRUE(explains(mdp, policy, found.weights)) << n;
+    Cone prior{3};
+    ASSERT_TRUE(prior.clip(domain.prior()));
+    for (const auto& side : found.sides) EXPECT_TRUE(side.support > 0 || prior.implies(side.half_space)) << n;
+    narrowed += found.region == prior ? 0u : 1u;
+    for (int i = 0; i < 300; ++i) {
+      const auto w = prior.sample(random);
+      const bool does = explains(mdp, policy, {w.x(), w.y(), w.z()});
+      explained += does ? 1u : 0u;
+      EXPECT_TRUE(!does || found.region.contains(w)) << n << ": " << w.transpose();
+      double margin = 1.0;
+      for (const auto& facet : found.region.facets()) margin = std::min(margin, facet.margin(w));
+      const bool is_inside = margin > 1e-6 && behave(mdp, std::vector<double>{w.x(), w.y(), w.z()});
+      EXPECT_TRUE(!is_path || !is_inside || does) << n << ": " << w.transpose();
+    }
+  }
+  EXPECT_GT(explained, 1000u);
+  EXPECT_GT(narrowed, 30u);
+}
+
+const std::string kForks =
+    "schema = \"kith.domain/1\"\nid = \"forks\"\n[model]\nformat = \"csv\"\nstates = \"s.csv\"\n"
+    "transitions = \"t.csv\"\n[[feature]]\nname = \"mud\"\n[[feature]]\nname = \"step\"\n[prior]\n"
+    "halfspaces = [ { step = -1 } ]\n";
+
+// From a: dry (1 step) or muddy (1 mud, 1 step); from b: through (1 mud, 1 step) or around (3 steps).
+Domain forks() {
+  const DomainFiles files{{},
+                          {{"s.csv", "state,terminal\na,false\nb,false\nend,true\n"},
+                           {"t.csv",
+                            "state,action,next,mud,step\na,dry,end,0,1\na,muddy,end,1,1\n"
+                            "b,through,end,1,1\nb,around,end,0,3\n"}}};
+  return *parse_unweighed_domain(kForks, "forks", files).domain;
+}
+
+WeightInference inferred_of_forks(const std::string& table) {
+  const Domain domain = forks();
+  return infer_weights(domain, *parse_policy("state,action,probability\n" + table, "policy", domain).policy);
+}
+
+TEST(Inference, SaysNothingOfAStateThatWasNotSeen) {
+  const auto found = inferred_of_forks("a,dry,1\n");
+  EXPECT_THAT(found.region.minimal_set(), ::testing::UnorderedElementsAre(HalfSpace{{-1, 0}}, HalfSpace{{0, -1}}));
+  EXPECT_EQ(found.sides.front().half_space, (HalfSpace{{0, -1}})) << "known";
+  EXPECT_EQ(found.sides.front().support, 0u);
+  EXPECT_EQ(found.sides.back().support, 1u);
+  EXPECT_EQ(found.left_out, (std::vector<StartId>{{MdpIndex{0}, StateIndex{1}}}));
+}
+
+// Half of the time through the mud, half around it: both are best where 1 mud costs 2 steps.
+TEST(Inference, TakesATieForAnExplanation) {
+  for (const std::string table : {"b,through,0.5\nb,around,0.5\n", "b,around,0.5\nb,through,0.5\n"}) {
+    const auto found = inferred_of_forks("a,dry,1\n" + table);
+    EXPECT_TRUE(found.is_optimal);
+    EXPECT_DOUBLE_EQ(found.weights[0], 2.0 * found.weights[1]);
+    EXPECT_LT(found.weights[1], 0.0);
+  }
+}
+
 TEST(Inference, RefusesAPolicyOfAnotherDomain) {
   EXPECT_THROW((void)infer_weights(item_delivery().domain(), {}), std::invalid_argument);
 }
