@@ -18,7 +18,8 @@ void Answerer::what_if() {
   std::string elsewhere;
   if (!question_.world && !question_.is_about_a_step()) {
     const auto effects = worlds_it_matters_in(base, world);
-    elsewhere = effects.matters == 0 ? "; nor does it in any other world"
+    elsewhere = effects.matters == 0 ? "; nor does it in any other world" +
+                                           std::string{domain_.inferred() ? " in which it was seen" : ""}
                                      : " (it changes the path in " + worlds_text(effects.matters, effects.tried) + ")";
     if (effects.matters > 0) {
       base = effects.base;
@@ -63,8 +64,10 @@ Answerer::Effects Answerer::worlds_it_matters_in(MdpIndex base, MdpIndex world) 
     for (const auto g : asked) other[g] = there[g];
     const auto found = numbers.find(other);
     if (other == variant || found == numbers.end()) continue;
+    const auto start = [&](MdpIndex of) { return atlas_.index({of, domain_.initial_state(of)}); };
+    if (!scene_.was_seen(start(m)) || !scene_.was_seen(start(found->second))) continue;
     ++effects.tried;
-    const auto path = [&](MdpIndex of) { return atlas_.trajectory(atlas_.index({of, domain_.initial_state(of)})); };
+    const auto path = [&](MdpIndex of) { return atlas_.trajectory(start(of)); };
     if (!first_difference(path(m), path(found->second))) continue;
     ++effects.matters;
     const auto distance = toggled_groups(domain_, base, m).size();

@@ -20,6 +20,7 @@ Answerer::Spot Answerer::spot_of(MdpIndex world, StateIndex s) const {
 
 void Answerer::add_places(MdpIndex world, std::map<Spot, Place>& places) const {
   const auto demo = atlas_.index({world, domain_.initial_state(world)});
+  if (!scene_.was_seen(demo)) return;
   const auto path = atlas_.trajectory(demo);
   std::map<Spot, std::optional<std::size_t>> seen;  // and at which step it happens
   std::map<Spot, std::size_t> first_visit;
@@ -43,6 +44,7 @@ void Answerer::add_places(MdpIndex world, std::map<Spot, Place>& places) const {
 void Answerer::where() {
   const auto& happening = *question_.happening;
   reply_.question = "Where " + does(happening, question_.negated) + scene_.context() + "?";
+  if (question_.world) static_cast<void>(scene_.needed_start(*question_.world));
   std::map<Spot, Place> places;
   const auto first = question_.world ? question_.world->value() : 0;
   const auto end = question_.world ? first + 1 : domain_.num_mdps();
@@ -70,9 +72,11 @@ void Answerer::where() {
 std::vector<std::string> Answerer::place_texts(const std::vector<Place>& places) const {
   constexpr std::size_t kMost = 12;
   std::vector<std::string> texts;
+  std::size_t worlds = 0;
+  for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) worlds += scene_.start_in(m) ? 1U : 0U;
   for (const auto& place : places) {
     if (texts.size() == kMost) break;
-    const auto of = question_.negated ? place.visited : domain_.num_mdps();
+    const auto of = question_.negated ? place.visited : worlds;
     texts.push_back((texts.empty() || !map_ ? place.text : place.text.substr(3)) +
                     (question_.world ? "" : " in " + worlds_text(place.worlds, of)));
   }

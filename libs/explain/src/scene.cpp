@@ -28,7 +28,21 @@ std::string Scene::context() const {
   return text;
 }
 
+bool Scene::was_seen(StartIndex demo) const {
+  if (!domain_.inferred()) return true;
+  const auto world = atlas_.id(demo).mdp;
+  const auto& unknown = domain_.inferred()->not_explained;
+  return std::ranges::none_of(atlas_.trajectory(demo).states, [&](StateIndex s) {
+    return std::binary_search(unknown.begin(), unknown.end(), StartId{world, s});
+  });
+}
+
 std::optional<StartIndex> Scene::start_in(MdpIndex world) const {
+  const auto start = place_in(world);
+  return start && was_seen(*start) ? start : std::nullopt;
+}
+
+std::optional<StartIndex> Scene::place_in(MdpIndex world) const {
   const auto initial = domain_.initial_state(world);
   if (question_.state) return state_called(world, *question_.state);
   if (!question_.cell) return atlas_.index({world, initial});
@@ -69,6 +83,12 @@ std::optional<StartIndex> Scene::state_called(MdpIndex world, const std::string&
 StartIndex Scene::needed_start(MdpIndex world) const {
   const auto start = start_in(world);
   if (start) return *start;
+  if (place_in(world)) {
+    fail(text_, question_.spot, "E1104",
+         "nobody knows: the robot was not seen on all of its way from there in " + name_of(world) +
+             ", or did what its weights do not explain",
+         "ask about a place or a world in which it was seen, or run 'kith infer' with more of what it does");
+  }
   if (question_.state) {
     fail(text_, question_.spot, "E1104", "the robot is never in state '" + *question_.state + "' in " + name_of(world),
          "name another world: 'in world N'");

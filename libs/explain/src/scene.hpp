@@ -22,9 +22,12 @@ class Scene {
   // " at (2,1)", " in state 'on the ice'", or nothing.
   [[nodiscard]] std::string spot() const;
   // Where the question is about, in one world: the map's start, or the robot at the cell and all things as at first;
-  // failing that as they are when its path from the start comes by, or in the first state with the robot there.
+  // failing that as they are when its path from the start comes by, or in the first state with the robot there. Nothing
+  // if it cannot be there, or if nobody knows what it does then.
   [[nodiscard]] std::optional<StartIndex> start_in(MdpIndex world) const;
   [[nodiscard]] StartIndex needed_start(MdpIndex world) const;
+  // Whether the robot was seen all along its way, and inferred weights explain it; true if nothing was inferred.
+  [[nodiscard]] bool was_seen(StartIndex demo) const;
   [[nodiscard]] bool is_at(MdpIndex world, StateIndex s, ActionIndex a, const Happening& happening) const;
   // The step of a path at which it happens. With a cell only the first step counts.
   [[nodiscard]] std::optional<std::size_t> step_of(MdpIndex world, const Trajectory& path,
@@ -61,6 +64,7 @@ class Scene {
   // Without tables: the way of people who are like the robot, except that the feature means just so much more (or less)
   // to them that it happens more often (or less).
   [[nodiscard]] std::optional<Contrast> way_of_others(StartIndex demo, const Happening& happening, bool happens) const;
+  [[nodiscard]] std::optional<StartIndex> place_in(MdpIndex world) const;
   [[nodiscard]] std::optional<StartIndex> state_called(MdpIndex world, const std::string& name) const;
 
   const Atlas& atlas_;

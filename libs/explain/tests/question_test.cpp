@@ -7,6 +7,7 @@
 
 #include "atlases.hpp"
 #include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/explain/contrast.hpp"
 #include "lake.hpp"
 
@@ -405,6 +406,34 @@ TEST(AskHowMuch, ListsWhatItsBehaviourTells) {
 TEST(AskErrors, NameWhatWordsCouldMean) {
   EXPECT_THAT(complaint("when goal", "two-goals"),
               HasSubstr("E1103 6: 'goal' could mean several things: near and far"));
+}
+
+// From a: dry (1 step) or muddy; from b: through the mud or around (3 steps). The robot was seen at a only.
+TEST(AskOfInferredWeights, SaysNothingOfWhatWasNotSeen) {
+  const std::string text =
+      "schema = \"kith.domain/1\"\nid = \"forks\"\n[model]\nformat = \"csv\"\nstates = \"s.csv\"\n"
+      "transitions = \"t.csv\"\n[[feature]]\nname = \"mud\"\n[[feature]]\nname = \"step\"\n[prior]\n"
+      "halfspaces = [ { step = -1 } ]\n[reward]\nweights = { mud = -3, step = -1 }\n[inferred]\nshare = 1.0\n"
+      "left_out = [[0, 1]]\nnot_explained = [[0, 1]]\n";
+  const DomainFiles files{{},
+                          {{"s.csv", "state,terminal\na,false\nb,false\nend,true\n"},
+                           {"t.csv",
+                            "state,action,next,mud,step\na,dry,end,0,1\na,muddy,end,1,1\n"
+                            "b,through,end,1,1\nb,around,end,0,3\n"}}};
+  const auto reading = parse_domain(text, "forks", {}, files);
+  ASSERT_TRUE(reading.domain) << reading.diagnostics.front().message;
+  const Atlas atlas{*reading.domain};
+  EXPECT_EQ(answer_question(atlas, "what at 'a'").text, "In state 'a' in world 0 it does 'dry'.");
+  for (const auto* question : {"what at 'b'", "why around at 'b'", "when does it do around at 'b'"}) {
+    try {
+      ADD_FAILURE() << question << ": " << answer_question(atlas, question).text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.diagnostics().front().id, "E1104") << error.what();
+      EXPECT_THAT(error.what(), HasSubstr("nobody knows"));
+    }
+  }
+  EXPECT_THAT(answer_question(atlas, "does mud cost more than 2 steps").text, HasSubstr("does not tell"));
+  EXPECT_THAT(answer_question(atlas, "does mud cost anything").text, HasSubstr("Yes"));
 }
 
 TEST(AskErrors, NeverEscapeOtherwise) {
