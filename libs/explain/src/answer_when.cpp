@@ -18,20 +18,24 @@ void Answerer::when() {
   reply_.question = "When " + does(happening, question_.negated) + scene_.context() + "?";
   if (question_.world) return when_in(*question_.world);
   std::vector<World> worlds;
-  std::size_t possible = 0, yes = 0;
+  std::size_t possible = 0, yes = 0, perhaps = 0;
   double most = 0.0;
   for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) {
     worlds.push_back(look_at(scene_.start_in(m)));
     const auto& world = worlds.back();
     possible += world.start ? 1U : 0U;
     yes += world.happens ? 1U : 0U;
+    perhaps += world.chance ? 1U : 0U;
     if (world.chance) most = std::max(most, *world.chance);
   }
   if (possible == 0) static_cast<void>(scene_.needed_start(last_world()));
   const auto n = question_.negated ? possible - yes : yes;
   const auto how = question_.negated ? Happens::kNo : most > 0.0 ? Happens::kMaybe : Happens::kYes;
   reply_.text = first_upper(says_that(happening, how)) + " in " + worlds_text(n, possible) + from_the_start();
-  if (most > 0.0 && !question_.negated) reply_.text += chance_text({std::nullopt, true, std::nullopt, most}, yes > 1);
+  if (most > 0.0 && !question_.negated) {
+    const auto chance = chance_text({std::nullopt, true, std::nullopt, most}, perhaps > 1);
+    reply_.text += perhaps == yes ? chance : ", in " + std::to_string(perhaps) + " of them only" + chance.substr(1);
+  }
   reply_.text += ".";
   if (yes == 0 || yes == possible) {
     when_alike(worlds);

@@ -69,6 +69,7 @@ void ContextReader::take_state(const Token& token) {
     fail_at(token.place, "E1104", "states have no names in a domain with a map",
             "name a cell: (COLUMN,ROW), or an action or a feature without quotes");
   }
+  need_first(!question_.is_about_a_step(), token.place, "place");
   const auto names = state_names();
   question_.spot = token.place;
   question_.state = token.text;
@@ -102,6 +103,7 @@ Advice ContextReader::hint_of_states(const std::string& name, const std::vector<
 }
 
 void ContextReader::take_drawn_cell(const Token& token) {
+  need_first(!question_.is_about_a_step(), token.place, "place");
   const auto names = drawn_at(token.number, token.row);
   if (names.size() == 1) {
     question_.spot = token.place;
@@ -127,9 +129,11 @@ void ContextReader::take_cell(const Token& token) {
                 " rows, counted from the top left, from 1");
   }
   if (question_.kind == Question::Kind::kWhatIf && !question_.conditions.empty()) {
+    need_first(!question_.conditions.back().cell, token.place, "cell for a thing");
     question_.conditions.back().cell = cell;
     return;
   }
+  need_first(!question_.is_about_a_step(), token.place, "place");
   question_.cell = cell;
   question_.spot = token.place;
 }
@@ -139,7 +143,7 @@ void ContextReader::take_world(const Token& token) {
   static const std::set<std::string> kAnyOf{"any", "every", "each", "all", "some", "a", "which", "what", "the"};
   if (at_ < tokens_.size() && tokens_[at_].kind == Token::Kind::kNumber) {
     const Token number = tokens_[at_++];
-    if (number.number < domain_.num_mdps()) return set_world(MdpIndex{number.number});
+    if (number.number < domain_.num_mdps()) return set_world(MdpIndex{number.number}, number.place);
     fail_at(number.place, "E1105", "there is no world " + number.text,
             "they are numbered 0 to " + std::to_string(domain_.num_mdps() - 1));
   }
@@ -155,7 +159,15 @@ void ContextReader::take_world(const Token& token) {
                                                : "write its number, " + numbers + ", or its name: " + listed(names));
 }
 
-void ContextReader::set_world(MdpIndex world) { question_.world = world; }
+void ContextReader::set_world(MdpIndex world, const Place& place) {
+  need_first(!question_.world || question_.world == world, place, "world");
+  question_.world = world;
+}
+
+void ContextReader::need_first(bool is_first, const Place& place, const std::string& what) const {
+  if (!is_first)
+    fail_at(place, "E1106", "one " + what + " at a time", "ask about the other one in a question of its own");
+}
 
 void ContextReader::take_item(const Token& token) {
   while (at_ < tokens_.size() && is_filler(tokens_[at_].text)) ++at_;
@@ -164,6 +176,7 @@ void ContextReader::take_item(const Token& token) {
     const auto& word = tokens_[at_].text;
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (stem(names[i]) != stem(word)) continue;
+      need_first(!question_.carried, tokens_[at_].place, "thing to carry");
       ++at_;
       question_.carried = i;
       return;

@@ -40,7 +40,9 @@ class ContextReader {
   void take_cell(const Token& token);
   void take_drawn_cell(const Token& token);
   void take_world(const Token& token);
-  void set_world(MdpIndex world);
+  void set_world(MdpIndex world, const Place& place);
+  // @throws kith::Error (E1106) if a question says something of one kind twice.
+  void need_first(bool is_first, const Place& place, const std::string& what) const;
   void take_item(const Token& token);
   // "column 2, row 3", in either order.
   bool take_column_and_row(const Token& first);

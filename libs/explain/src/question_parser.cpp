@@ -27,6 +27,7 @@ class Parser : private ContextReader {
     if (question_.kind == Kind::kWhether) return whether();
     while (at_ < tokens_.size()) read_next();
     close_phrase();
+    settle_denial();
     settle_kind();
     check();
     return std::move(question_);
@@ -69,7 +70,7 @@ class Parser : private ContextReader {
   // "how many steps is rubble worth" is about rubble, "how many steps does it take" about the whole path.
   void drop_what_is_counted(std::size_t begin) {
     auto end = begin;
-    while (end < tokens_.size() && !is_auxiliary(tokens_[end].text)) ++end;
+    while (end < tokens_.size() && !is_auxiliary(tokens_[end].text) && tokens_[end].text != "in") ++end;
     const bool values = std::any_of(tokens_.begin(), tokens_.end(),
                                     [](const Token& token) { return valued(token.text) != Valued::kNo; });
     bool counts_something = values;
@@ -155,12 +156,17 @@ class Parser : private ContextReader {
 
   // Of two things that happen one is worth more; of two steps the robot takes one.
   Question whether() {
-    if (auto said = read_comparison(domain_, lexicon_, text_, without_contexts())) {
+    const auto left = without_contexts();
+    if (auto said = read_comparison(domain_, lexicon_, text_, left)) {
+      if (left.size() < tokens_.size())
+        fail_at({1, text_.size()}, "E1106", "what things are worth is the same everywhere",
+                "leave out place and world");
       question_.said = std::move(said);
       return std::move(question_);
     }
     question_.kind = Kind::kWhat;
     for (at_ = 0; at_ < tokens_.size();) {
+      denial_.reset();
       if (lexicon_.names_something(tokens_[at_].text) || valued(tokens_[at_].text) != Valued::kNo ||
           tokens_[at_].text == "than") {
         ++at_;
@@ -173,12 +179,14 @@ class Parser : private ContextReader {
     return std::move(question_);
   }
 
-  // The tokens of a comparison without the world, which makes no difference to what things are worth.
+  // The tokens of a comparison without place and world.
   [[nodiscard]] std::vector<Token> without_contexts() const {
     std::vector<Token> left;
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const bool is_number = tokens_[i].kind == Token::Kind::kNumber && i > 0 && tokens_[i - 1].text == "world";
-      if (tokens_[i].kind == Token::Kind::kWorld || tokens_[i].text == "world" || is_number) continue;
+      const auto kind = tokens_[i].kind;
+      const bool is_place = kind == Token::Kind::kWorld || kind == Token::Kind::kCell || kind == Token::Kind::kName;
+      if (is_place || tokens_[i].text == "world" || is_number) continue;
       left.push_back(tokens_[i]);
     }
     return left;
@@ -213,7 +221,11 @@ class Parser : private ContextReader {
     const auto& word = token.text;
     if (begins_context(token)) close_phrase();
     if (token.kind == Token::Kind::kCell) return take_cell(token);
-    if (token.kind == Token::Kind::kWorld) return set_world(MdpIndex{token.number});
+    if (token.kind == Token::Kind::kWorld) return set_world(MdpIndex{token.number}, token.place);
+    if (token.kind == Token::Kind::kSign || token.kind == Token::Kind::kFraction)
+      fail_at(token.place, "E1103", "kith does not know what '" + word + "' says here", kForms);
+    if (question_.kind == Kind::kWhatIf && asks_what_then(word)) return skip_what_then();
+    if (is_quantity(token)) fail_unknown(lexicon_, text_, word, token.place, lexicon_.all_words());
     if (token.kind == Token::Kind::kName) return take_state(token);
     if (word == "world" || word == "mdp") return take_world(token);
     if (word == "state" && !map_ && !lexicon_.knows(word)) return take_unquoted_state(token);
@@ -231,8 +243,12 @@ class Parser : private ContextReader {
     }
     if (denies(word) || denies_here(word)) return deny(word);
     const bool begins_second = is_second_choice(word);
+    const bool denies_next = at_ < tokens_.size() && denies(tokens_[at_].text);
+    if (word == "but" && !denies_next)
+      fail_at(token.place, "E1106", "'but' could mean the opposite", "ask with 'and' or 'not'");
     if (word == "and" || word == "with" || word == "but" || begins_second) {
       close_phrase();
+      settle_denial();
       negated_ = begins_second;
       return;
     }
@@ -263,15 +279,58 @@ class Parser : private ContextReader {
   // Whether people see cells.
   [[nodiscard]] bool has_cells() const { return domain_.drawing().has_value(); }
 
+  // Words that say how many, or that something is there: what only some kinds of questions ask.
+  [[nodiscard]] bool is_quantity(const Token& token) const {
+    if (token.kind != Token::Kind::kWord || lexicon_.knows(token.text)) return false;
+    const auto before = word_before();
+    if (token.text == "all") return question_.kind != Kind::kWhatIf && before != "at" && before != "in";
+    if (token.text == "some") return question_.kind == Kind::kWhatIf;
+    const auto after = at_ < tokens_.size() ? tokens_[at_].text : std::string{};
+    const auto is_being = [](const std::string& word) { return word == "is" || word == "are"; };
+    return token.text == "there" && question_.kind != Kind::kWhatIf && (is_being(before) || is_being(after));
+  }
+
+  // "if there is no charger, does it go up": what it does then is told by what the condition changes.
+  [[nodiscard]] bool asks_what_then(const std::string& word) const {
+    const bool has_condition = !phrase_.empty() || !question_.conditions.empty();
+    const auto next = at_ < tokens_.size() ? tokens_[at_].text : std::string{};
+    return has_condition && is_auxiliary(word) && (next == "it" || next == "the");
+  }
+
+  void skip_what_then() {
+    close_phrase();
+    settle_denial();
+    for (; at_ < tokens_.size(); ++at_) {
+      const auto& token = tokens_[at_];
+      const bool is_word = token.kind == Token::Kind::kWord && (is_filler(token.text) || lexicon_.knows(token.text));
+      if (token.kind == Token::Kind::kWorld || token.text == "world") return;
+      if (!is_word || denies(token.text)) fail_unknown(lexicon_, text_, token.text, token.place, lexicon_.all_words());
+    }
+  }
+
+  // A denial must deny something: "the charger was not there".
+  void settle_denial() {
+    if (!denial_) return;
+    const bool is_of_thing = question_.kind == Kind::kWhatIf && question_.conditions.size() == num_settled_ + 1;
+    if (!is_of_thing)
+      fail_at(*denial_, "E1106", "it is not clear what is denied here", "put the word before what it denies");
+    question_.conditions.back().present = false;
+    denial_.reset();
+    num_settled_ = question_.conditions.size();
+  }
+
   void deny(const std::string& word) {
     if (stem(word) == "around") drop_verbs_of_motion();
     close_phrase();
     // "does not avoid" denies twice, "rather than not" and "instead of not" do not.
     const bool denied_just_before = negated_ && negated_at_ + 1 == at_ - 1;
     const bool says_so_again = word == "off" || word == "away" || word == "past" || word == "clear";
+    if (denial_ && !after_instead_ && (says_so_again || !denied_just_before))
+      fail_at(tokens_[at_ - 1].place, "E1106", "'" + word + "' denies what is denied already", "deny it once");
     negated_ = !denied_just_before || word == "instead" || word == "than" || after_instead_ || says_so_again;
     after_instead_ = word == "instead" || word == "than";
     negated_at_ = at_ - 1;
+    denial_ = tokens_[at_ - 1].place;
   }
 
   // "prefers left to up": what it does, and what it does not.
@@ -304,7 +363,6 @@ class Parser : private ContextReader {
 
   void take_number(const Token& token) {
     if (is_numbered_state(token)) return take_state(token);
-    if (question_.kind == Kind::kHowMuch) return;
     fail_at(token.place, "E1103", "it is not clear what the number " + token.text + " stands for",
             "write 'world " + token.text + "'" +
                 (map_ ? ", or a cell as (COLUMN,ROW)" : ", or 'state " + token.text + "'"));
@@ -357,6 +415,8 @@ class Parser : private ContextReader {
   // What it does then is told by what the condition changes.
   void begin_condition() {
     close_phrase();
+    if (question_.instead || denial_)
+      fail_at(tokens_[at_ - 1].place, "E1106", "a condition takes no 'not' before it", kForms);
     question_.kind = Kind::kWhatIf;
     question_.happening.reset();
     question_.instead.reset();
@@ -371,7 +431,9 @@ class Parser : private ContextReader {
 
   // Ends what stands before a separator, a cell or the end of the question.
   void close_phrase() {
-    std::erase_if(phrase_, [&](const Word& word) { return lexicon_.says_only_contact(word.text); });
+    const bool had_words =
+        std::erase_if(phrase_, [&](const Word& word) { return lexicon_.says_only_contact(word.text); });
+    if (had_words && question_.instead) denial_.reset();  // "past the charger without stopping"
     if (phrase_.empty()) return;
     const auto place = Place{phrase_.front().place.column,
                              phrase_.back().place.column + phrase_.back().place.length - phrase_.front().place.column};
@@ -386,20 +448,21 @@ class Parser : private ContextReader {
   }
 
   [[nodiscard]] static bool is_gone(const std::string& word) {
-    static const std::set<std::string> kGone{"gone",        "missing", "removed", "remove",   "absent",
-                                             "cleared",     "broken",  "deleted", "vanished", "disappear",
-                                             "disappeared", "lacking", "less"};
+    static const std::set<std::string> kGone{"gone",   "missing", "removed",  "remove",    "absent",      "cleared",
+                                             "broken", "deleted", "vanished", "disappear", "disappeared", "lacking"};
     return kGone.count(word) != 0;
   }
 
   // "there is no charger", "the charger is gone", "we remove the charger".
   void take_condition(const Place& place) {
+    denial_.reset();
     const bool says_gone = std::erase_if(phrase_, [](const Word& word) { return is_gone(word.text); }) > 0;
     if (phrase_.empty()) {
-      if (says_gone && !question_.conditions.empty()) question_.conditions.back().present = false;
+      if (says_gone && !question_.conditions.empty()) question_.conditions.back().present = negated_;
       return;
     }
-    question_.conditions.push_back({!(negated_ || says_gone), thing_of_phrase(place), std::nullopt, place});
+    question_.conditions.push_back({negated_ == says_gone, thing_of_phrase(place), std::nullopt, place});
+    num_settled_ = question_.conditions.size() - (negated_ || says_gone ? 0 : 1);
   }
 
   [[nodiscard]] bool is_item(const std::vector<Word>& words) const {
@@ -414,6 +477,7 @@ class Parser : private ContextReader {
   }
 
   void take_happening(const Place& place) {
+    denial_.reset();
     check_words();
     const auto found = lexicon_.happenings(words_of_phrase());
     if (found.empty()) {
@@ -526,10 +590,12 @@ class Parser : private ContextReader {
 
   bool negated_ = false;
   bool after_instead_ = false;
-  bool removes_ = false;        // "what difference does ... make"
-  bool values_ = false;         // it is about what something is worth
-  bool counts_ = false;         // "how many steps does it take"
-  std::size_t negated_at_ = 0;  // position of the last word that denied
+  bool removes_ = false;         // "what difference does ... make"
+  bool values_ = false;          // it is about what something is worth
+  bool counts_ = false;          // "how many steps does it take"
+  std::size_t negated_at_ = 0;   // position of the last word that denied
+  std::optional<Place> denial_;  // of a word that denied, as long as it denies nothing
+  std::size_t num_settled_ = 0;  // conditions that say whether the thing is there
   std::vector<Word> phrase_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <regex>
 #include <set>
 
 #include "question_words.hpp"
@@ -10,73 +11,82 @@
 namespace kith::detail {
 namespace {
 
-std::size_t number_of(const std::string& digits) {
-  constexpr std::size_t kMaxDigits = 9;
-  return digits.size() > kMaxDigits ? 1'000'000'000 : static_cast<std::size_t>(std::stoul(digits));
+// Numbers that nothing here reaches count as the largest.
+std::size_t number_of(std::string digits) {
+  constexpr std::size_t kMostDigits = 9;
+  std::erase(digits, ',');
+  return digits.size() > kMostDigits ? 1'000'000'000 : static_cast<std::size_t>(std::stoul(digits));
 }
 
-// The end of a name in quotes that begin at `i`, or nothing: "'" also stands within words.
-std::optional<std::size_t> end_of_name(const std::string& text, std::size_t i) {
-  if (text[i] != '"' && text[i] != '\'') return std::nullopt;
-  const auto end = text.find(text[i], i + 1);
-  return end == std::string::npos || end == i + 1 ? std::nullopt : std::optional{end};
+// The forms of tokens, tried in this order; the first group of a pair, and the second one, are its numbers.
+struct Form {
+  Token::Kind kind;
+  std::regex form;
+};
+
+const std::vector<Form>& forms() {
+  using Kind = Token::Kind;
+  static const std::vector<Form> kForms{
+      {Kind::kName, std::regex{R"("([^"]+)\"|'([^']+)')"}},
+      {Kind::kSign, std::regex{R"(-\d+(\.\d+)?)"}},
+      {Kind::kNumber, std::regex{R"(\d{1,3}(,\d{3})+(?![\d,]))"}},
+      {Kind::kSign, std::regex{R"(\d+\.\d+,\d+|\d+ *, *\d+\.\d+|\d+(\.\d+){2,}|\d+ *, *\d+( *, *\d+)+)"}},
+      {Kind::kCell, std::regex{R"((\d+)[ ,]*,[ ,]*(\d+))"}},
+      {Kind::kFraction, std::regex{R"((\d*)\.(\d{1,3})(?!\d)|(\d+)/(\d{1,3})(?!\d))"}},
+      {Kind::kNumber, std::regex{R"(\d+(?![\w/]|\.\d))"}},
+      {Kind::kWord, std::regex{"[A-Za-z\x80-\xFF][A-Za-z0-9_'\x80-\xFF-]*"}},
+      {Kind::kSign, std::regex{R"(\d[\w./]*|[^\s,?.!;:()'"])"}},
+  };
+  return kForms;
 }
 
-// Also of words in other scripts, which are then unknown words rather than none.
-bool is_letter(unsigned char c) {
-  constexpr unsigned char kLastAscii = 0x7F;
-  return c > kLastAscii || std::isalnum(c) != 0;
+// In lower case, apostrophes as on keyboards, and without the "'s" of "what's" and "robot's".
+std::string spelled(const std::string& text) {
+  std::string word;
+  for (const char c : text) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (auto at = word.find("\xE2\x80\x99"); at != std::string::npos; at = word.find("\xE2\x80\x99"))
+    word.replace(at, 3, "'");
+  if (word.size() > 2 && word.ends_with("'s")) word.resize(word.size() - 2);
+  return word;
+}
+
+Token token_of(Token::Kind kind, const std::cmatch& found, std::size_t begin) {
+  const auto group = [&](std::size_t i) { return found[i].matched ? found[i].str() : std::string{}; };
+  Token token{kind, spelled(found.str()), 0, 0, {begin + 1, static_cast<std::size_t>(found.length())}};
+  if (kind == Token::Kind::kName) {
+    token.text = group(1) + group(2);
+    token.place = {begin + 2, token.text.size()};
+  } else if (kind == Token::Kind::kNumber) {
+    token.number = number_of(token.text);
+  } else if (kind == Token::Kind::kCell) {
+    token.number = number_of(group(1));
+    token.row = number_of(group(2));
+  } else if (kind == Token::Kind::kFraction) {
+    const bool is_decimal = found[2].matched;
+    token.row = 1;
+    for (std::size_t i = 0; is_decimal && i < group(2).size(); ++i) token.row *= 10;
+    token.number = is_decimal ? number_of("0" + group(1) + group(2)) : number_of(group(3));
+    if (!is_decimal) token.row = number_of(group(4));
+    if (token.row == 0) token.kind = Token::Kind::kSign;
+  }
+  return token;
 }
 
 }  // namespace
 
 std::vector<Token> tokens_of(const std::string& text) {
-  const auto is = [&](std::size_t i, auto predicate) {
-    return i < text.size() && predicate(static_cast<unsigned char>(text[i])) != 0;
-  };
   std::vector<Token> tokens;
-  bool comma = false;  // between the last token and this one
   for (std::size_t i = 0; i < text.size();) {
-    const bool digit = is(i, [](unsigned char c) { return std::isdigit(c); });
-    const auto belongs = [digit](unsigned char c) {
-      return digit ? std::isdigit(c) != 0 : is_letter(c) || c == '_' || c == '-' || c == '\'';
-    };
-    if (const auto end = end_of_name(text, i)) {
-      tokens.push_back({Token::Kind::kName, text.substr(i + 1, *end - i - 1), 0, 0, {i + 2, *end - i - 1}});
-      i = *end + 1;
-      comma = false;
-      continue;
+    const auto begin = i++;
+    for (const auto& [kind, form] : forms()) {
+      std::cmatch found;
+      if (!std::regex_search(text.c_str() + begin, found, form, std::regex_constants::match_continuous)) continue;
+      const bool is_in_cell = begin > 0 && text[begin - 1] == '(';
+      if (kind == Token::Kind::kNumber && is_in_cell && found.str().find(',') != std::string::npos) continue;
+      tokens.push_back(token_of(kind, found, begin));
+      i = begin + static_cast<std::size_t>(found.length());
+      break;
     }
-    if (!is(i, [](unsigned char c) { return is_letter(c); })) {
-      comma = comma || text[i] == ',';
-      ++i;
-      continue;
-    }
-    const auto begin = i;
-    while (is(i, belongs)) ++i;
-    Token token;
-    token.place = {begin + 1, i - begin};
-    for (const char c : text.substr(begin, i - begin)) {
-      token.text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    // Apostrophes as editors set them, and "what's", "robot's".
-    for (auto at = token.text.find("\xE2\x80\x99"); at != std::string::npos; at = token.text.find("\xE2\x80\x99")) {
-      token.text.replace(at, 3, "'");
-    }
-    if (token.text.size() > 2 && token.text.ends_with("'s")) token.text.resize(token.text.size() - 2);
-    if (digit) {
-      token.kind = Token::Kind::kNumber;
-      token.number = number_of(token.text);
-    }
-    const bool pair = digit && comma && !tokens.empty() && tokens.back().kind == Token::Kind::kNumber;
-    if (pair) {
-      tokens.back().kind = Token::Kind::kCell;
-      tokens.back().row = token.number;
-      tokens.back().place.length = i + 1 - tokens.back().place.column;
-    } else {
-      tokens.push_back(token);
-    }
-    comma = false;
   }
   return tokens;
 }
@@ -103,8 +113,7 @@ std::optional<std::size_t> end_of_world(const std::vector<std::string>& words, c
   auto at = begin;
   for (const auto& word : words) {
     while (at > begin && at < tokens.size() && tokens[at].text != word && is_auxiliary(tokens[at].text)) ++at;
-    const bool is_plain =
-        at < tokens.size() && (tokens[at].kind == Token::Kind::kWord || tokens[at].kind == Token::Kind::kNumber);
+    const bool is_plain = at < tokens.size() && tokens[at].kind != Token::Kind::kName;
     if (!is_plain || tokens[at].text != word) return std::nullopt;
     ++at;
   }
@@ -142,6 +151,7 @@ std::vector<Token> with_world_names(const Domain& domain, std::vector<Token> tok
       continue;
     }
     for (const auto& name : names) {
+      if (name.words.size() == 1 && tokens[i].kind == Token::Kind::kNumber) continue;  // its number comes first
       const auto end = end_of_world(name.words, tokens, i);
       if (!end || (name.words.size() == 1 && !introduces_world(tokens, i))) continue;
       const auto& last = tokens[*end - 1].place;

@@ -32,16 +32,15 @@ bool is_filler(const std::string& word) {
       "a an the it its he she they them his her him their this that these those you your i me my we us one ones "
       "does do did doing done is are am be been being was were will would should could can may might shall must "
       "has have had having there here then to of in at on from for by over through across into onto along toward "
-      "towards inside upon around within near next via if or so as which whether about out off "
+      "towards inside upon around via if or so as which whether about out off "
       // questions that ask politely, or think aloud
       "tell show explain say describe give see know wonder wondering like please thanks thank hi hello hey well ok "
       "okay "
       "now kith just let curious understand interested want wants wanted wish need needs possible possibly true "
       // how and how often, which the answer tells
-      "ever sometimes always often usually normally typically generally again still even also too already once "
-      "eventually ahead all any some anywhere somewhere everywhere earth world's maybe perhaps much bit more extra "
-      "additional another most exactly point time times n next first rather prefer prefers preferred instead "
-      "order sure while as during "
+      "ever sometimes always often usually normally typically generally still even also too already eventually ahead "
+      "all any some anywhere somewhere everywhere earth world's maybe perhaps much bit point next rather prefer prefers "
+      "preferred instead sure while as during actually really quickly slowly simply possibly probably likely finally "
       // the robot, and what it does without saying what
       "robot robots machine vehicle agent go goes going went move moves moving moved take takes taking took make "
       "makes making made happen happens happening happened start starts cell cells choose chooses choosing use uses "
@@ -50,8 +49,7 @@ bool is_filler(const std::string& word) {
       "act acts behave behaves way ways route routes direction place places spot spots square squares tile tiles area "
       "areas field fields patch patches location locations worlds case cases situation situations circumstances "
       "when where why what many how board");
-  const bool is_adverb = word.size() > 4 && word.ends_with("ly");
-  return is_adverb || kWords.count(word) != 0;
+  return kWords.count(word) != 0;
 }
 
 bool is_contact(const std::string& stem_of_word) {
@@ -134,7 +132,6 @@ const std::vector<Pattern>& patterns() {
       pattern(Kind::kWhen, "in how many " + kCases),
       pattern(Kind::kWhen, "at what|which point"),
       pattern(Kind::kWhen, "how often|frequently|likely|probable"),
-      pattern(Kind::kWhen, "how many times"),
       pattern(Kind::kWhen, "is|are there a|any|some " + kCases + " where|in|when"),
       pattern(Kind::kWhen, "is it possible|likely"),
       pattern(Kind::kWhen, "what makes|causes|leads"),

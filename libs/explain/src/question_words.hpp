@@ -12,7 +12,7 @@ namespace kith::detail {
 
 // The words of questions, whatever the domain: how a question begins, what it compares by, and what adds nothing.
 
-// Words that may stand anywhere in a question and add nothing to it: "please", "robot", "ever", any adverb in -ly.
+// Words that may stand anywhere in a question and add nothing to it: "please", "robot", "ever".
 [[nodiscard]] bool is_filler(const std::string& word);
 // Verbs that say no more than that the robot has to do with something: "enter", "pass", "visit".
 [[nodiscard]] bool is_contact(const std::string& stem_of_word);

@@ -103,10 +103,22 @@ class Reader {
     return std::nullopt;
   }
 
-  // "2 steps", "the charger is worth", with "plus what 2 steps cost"; without a verb that of the sentence counts.
+  // The verb that things take without one: "2 steps" are a cost, whatever they are compared with.
+  [[nodiscard]] int own_sign(const IntegerVector& counts, int sign) const {
+    bool gains = false, costs = false;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      const auto weight = domain_.weights().integer[k];
+      gains = gains || (counts[k] != 0 && weight > 0);
+      costs = costs || (counts[k] != 0 && weight < 0);
+    }
+    return gains == costs ? sign : (gains ? 1 : -1);
+  }
+
+  // "2 steps", "the charger is worth", with "plus what 2 steps cost".
   Vector side(int sign) {
     auto total = list();
-    total = scaled(total, verb().value_or(sign));
+    if (!total) return total;
+    total = scaled(total, verb().value_or(own_sign(*total, sign)));
     if (!takes(" plus what ")) return total;
     const auto more = list();
     const auto own = verb();

@@ -376,6 +376,57 @@ TEST(AskErrors, RefuseToAnswerHalfAQuestion) {
   EXPECT_THAT(complaint("how much rubble at (2,3)"), HasSubstr("E1106 1: 'how much' takes only a feature"));
 }
 
+// Numbers, signs and degrees are read whole, and what is worth something is held against what the other side costs.
+TEST(AskWhether, ReadsEveryNumberAndSign) {
+  const auto answer = [](const std::string& question) { return ask(question).text.substr(0, 3); };
+  EXPECT_EQ(answer("is stopping at the charger worth more than 100 steps?"), "No:");
+  EXPECT_EQ(answer("is stopping at the charger worth less than 4 steps?"), "Yes");
+  EXPECT_EQ(answer("is the charger worth more than 3 steps?"), "Wha") << "it does not tell";
+  EXPECT_EQ(answer("stopping at the charger is worth more than 100 steps"), "No:") << "as kith prints it";
+  EXPECT_EQ(answer("does rubble cost more than 1.5 steps?"), "Yes");
+  EXPECT_EQ(answer("does rubble cost more than half a step?"), "Yes");
+  EXPECT_EQ(answer("does rubble cost more than 3.5 steps?"), "Wha");
+  EXPECT_EQ(answer("does crossing rubble cost less than 1/2 steps?"), "No:");
+  EXPECT_EQ(answer("does rubble cost more than 1,000 steps?"), "No:");
+  for (const auto* question : {"does crossing rubble cost more than -2 steps?",
+                               "is rubble at (3,3) worse than 2 steps?",
+                               "does rubble cost at most 2 steps more than the charger?",
+                               "is rubble worse than 2 3 steps?",
+                               "is rubble worse than 2 steps in world 3?",
+                               "does rubble cost as much as 2 steps or more than the charger?",
+                               "what if rubble at (3,3) was not there but a charger was?",
+                               "what if all rubble but the one at (3,3) is gone?",
+                               "does it cross rubble more than once",
+                               "does it recharge exactly once?",
+                               "does it cross rubble at most once?",
+                               "when does it recharge in world -1?",
+                               "what does it do at (-2,3)?",
+                               "what does it do at (2.5,3)?",
+                               "why does it recharge in world 3 but not in world 63?",
+                               "when is there a charger?",
+                               "how many chargers are there?",
+                               "what if there is less rubble?",
+                               "what if some rubble is gone?",
+                               "does it hardly recharge?"})
+    EXPECT_THAT(complaint(question), ::testing::StartsWith("E11")) << question;
+}
+
+TEST(AskWhatIf, ReadsWhatIsDeniedBehindIt) {
+  EXPECT_EQ(ask("what if the charger was not there?").question, ask("what if there is no charger?").question);
+  EXPECT_EQ(ask("if there is rubble at (4,2), does it recharge?").question, ask("what if rubble at (4,2)?").question);
+}
+
+TEST(AskWhat, CountsStepsOfAWorld) {
+  EXPECT_EQ(ask("how many steps in world 7?").text, ask("what does it do in world 7").text);
+}
+
+// Two of three worlds are certain.
+TEST(AskWhen, SaysInHowManyWorldsChanceDecides) {
+  const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
+  EXPECT_THAT(ask("when does it come home?", pond).text, HasSubstr(" in 3 of 3 worlds on the way from the first state, "
+                                                                   "in 1 of them only with a chance of 90 %."));
+}
+
 // In world 63 nothing changes without the charger; elsewhere it does.
 TEST(AskWhatIf, LooksForAWorldWhereItMatters) {
   const auto& atlas = atlas_of("item-delivery");
