@@ -59,7 +59,7 @@ std::optional<std::size_t> separator(const Lexicon& lexicon, const std::vector<T
   };
   if (const auto than = find(0, {"than", "outweigh", "outweighs"})) return than;
   const auto names = [&](const Token& token) { return lexicon.names_something(token.text); };
-  const auto is_valued = [](const Token& token) { return valued(token.text) != Valued::kNo; };
+  const auto is_valued = [](const Token& token) { return speaks_of_value(token.text); };
   if (const auto either = find(0, {"or"}); either && std::any_of(tokens.begin(), tokens.end(), is_valued))
     return either;
   const auto prefer = find(0, {"prefer", "prefers", "preferring"});
@@ -161,11 +161,11 @@ class Side {
     if (token.kind == Token::Kind::kNumber) return counted(token.number, 1);
     if (token.kind == Token::Kind::kFraction) return counted(token.number, token.row);
     if (token.kind != Token::Kind::kWord) return std::nullopt;
-    if (token.text == "half") return Amount{1, 2};
-    if (token.text == "twice") return Amount{2, 1};
-    if (token.text == "once") return Amount{1, 1};
-    const auto n = token.text == "one" ? std::nullopt : number_word(token.text);
-    return n ? std::optional{counted(*n, 1)} : std::nullopt;
+    static const std::map<std::string, Amount> kWords{
+        {"half", {1, 2}}, {"once", {}},    {"twice", {2, 1}}, {"two", {2, 1}},   {"three", {3, 1}}, {"four", {4, 1}},
+        {"five", {5, 1}}, {"six", {6, 1}}, {"seven", {7, 1}}, {"eight", {8, 1}}, {"nine", {9, 1}},  {"ten", {10, 1}}};
+    const auto at = kWords.find(token.text);
+    return at == kWords.end() ? std::nullopt : std::optional{at->second};
   }
 
   void close() {

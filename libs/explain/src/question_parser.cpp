@@ -71,8 +71,8 @@ class Parser : private ContextReader {
   void drop_what_is_counted(std::size_t begin) {
     auto end = begin;
     while (end < tokens_.size() && !is_auxiliary(tokens_[end].text) && tokens_[end].text != "in") ++end;
-    const bool values = std::any_of(tokens_.begin(), tokens_.end(),
-                                    [](const Token& token) { return valued(token.text) != Valued::kNo; });
+    const bool values =
+        std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return speaks_of_value(token.text); });
     bool counts_something = values;
     for (auto i = begin; i < end; ++i) {
       const auto& word = tokens_[i];
@@ -139,7 +139,7 @@ class Parser : private ContextReader {
     for (const auto& token : tokens_) {
       const bool is_choice = token.text == "rather" || token.text.starts_with("prefer") || token.text == "something";
       const bool is_polite = token.text == "like" && &token != tokens_.data() && (&token - 1)->text == "would";
-      if (token.kind != Token::Kind::kWord || lexicon_.knows(token.text) || valued(token.text) == Valued::kNo) continue;
+      if (token.kind != Token::Kind::kWord || lexicon_.knows(token.text) || !speaks_of_value(token.text)) continue;
       values = values || !(is_polite || (prefers_here && is_choice) || (opened_by_when() && is_choice));
     }
     if (!values && question_.kind != Kind::kWhether) return;
@@ -167,7 +167,7 @@ class Parser : private ContextReader {
     question_.kind = Kind::kWhat;
     for (at_ = 0; at_ < tokens_.size();) {
       denial_.reset();
-      if (lexicon_.names_something(tokens_[at_].text) || valued(tokens_[at_].text) != Valued::kNo ||
+      if (lexicon_.names_something(tokens_[at_].text) || speaks_of_value(tokens_[at_].text) ||
           tokens_[at_].text == "than") {
         ++at_;
       } else {
@@ -385,7 +385,7 @@ class Parser : private ContextReader {
     static const std::set<std::string> kOfThings{"change",  "changes", "different", "differ", "present",
                                                  "exist",   "exists",  "existed",   "added",  "add",
                                                  "appears", "appear",  "find",      "finds"};
-    if (values_ && valued(word) != Valued::kNo) return true;
+    if (values_ && speaks_of_value(word)) return true;
     return question_.kind == Kind::kWhatIf && kOfThings.count(word) != 0;
   }
 

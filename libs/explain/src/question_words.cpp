@@ -10,18 +10,16 @@
 namespace kith::detail {
 namespace {
 
-std::set<std::string> words_in(const std::string& text) {
-  std::istringstream stream{text};
-  std::set<std::string> words;
-  for (std::string word; stream >> word;) words.insert(word);
-  return words;
-}
-
 std::vector<std::string> sequence_of(const std::string& text) {
   std::istringstream stream{text};
   std::vector<std::string> words;
   for (std::string word; stream >> word;) words.push_back(word);
   return words;
+}
+
+std::set<std::string> words_in(const std::string& text) {
+  const auto words = sequence_of(text);
+  return {words.begin(), words.end()};
 }
 
 }  // namespace
@@ -39,7 +37,8 @@ bool is_filler(const std::string& word) {
       "now kith just let curious understand interested want wants wanted wish need needs possible possibly true "
       // how and how often, which the answer tells
       "ever sometimes always often usually normally typically generally still even also too already eventually ahead "
-      "all any some anywhere somewhere everywhere earth world's maybe perhaps much bit point next rather prefer prefers "
+      "all any some anywhere somewhere everywhere earth world's maybe perhaps much bit point next rather prefer "
+      "prefers "
       "preferred instead sure while as during actually really quickly slowly simply possibly probably likely finally "
       // the robot, and what it does without saying what
       "robot robots machine vehicle agent go goes going went move moves moving moved take takes taking took make "
@@ -78,29 +77,14 @@ bool is_auxiliary(const std::string& word) {
   return kWords.count(word) != 0;
 }
 
-std::optional<std::size_t> number_word(const std::string& word) {
-  static const std::vector<std::string> kWords = sequence_of("one two three four five six seven eight nine ten");
-  const auto found = std::find(kWords.begin(), kWords.end(), word);
-  if (found == kWords.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - kWords.begin()) + 1;
-}
-
-Valued valued(const std::string& word) {
-  static const std::set<std::string> kCosts = words_in(
+bool speaks_of_value(const std::string& word) {
+  static const std::set<std::string> kWords = words_in(
       "cost costs costing mind minds minding dislike dislikes hate hates fear fears afraid scared bad worse worst "
-      "expensive "
-      "costly dangerous harmful dear price penalty bother bothers punish punished punishes cheaper cheap detest "
-      "detests unpleasant");
-  static const std::set<std::string> kGains = words_in(
-      "worth like likes liking love loves enjoy enjoys good better best valuable reward rewards rewarded rewarding "
-      "gain "
-      "gains prefer prefers rather useful beneficial");
-  static const std::set<std::string> kEither = words_in(
-      "value values weight care cares matter matters important think thinks feel feels anything something nothing "
-      "outweigh outweighs");
-  if (kCosts.count(word) != 0) return Valued::kCost;
-  if (kGains.count(word) != 0) return Valued::kGain;
-  return kEither.count(word) != 0 ? Valued::kEither : Valued::kNo;
+      "expensive costly dangerous harmful dear price penalty bother bothers punish punished punishes cheaper cheap "
+      "detest detests unpleasant worth like likes liking love loves enjoy enjoys good better best valuable reward "
+      "rewards rewarded rewarding gain gains prefer prefers rather useful beneficial value values weight care cares "
+      "matter matters important think thinks feel feels anything something nothing outweigh outweighs");
+  return kWords.count(word) != 0;
 }
 
 namespace {

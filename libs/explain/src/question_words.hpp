@@ -20,13 +20,8 @@ namespace kith::detail {
 [[nodiscard]] bool denies(const std::string& word);
 // "does", "will", "is", ...: with one of them a question may begin.
 [[nodiscard]] bool is_auxiliary(const std::string& word);
-// The number that a word stands for: "two"; nothing of other words.
-[[nodiscard]] std::optional<std::size_t> number_word(const std::string& word);
-
-// How words speak of what something is worth: as a cost ("minds", "worse"), as a gain ("likes", "worth") or of either
-// ("matters").
-enum class Valued { kNo, kCost, kGain, kEither };
-[[nodiscard]] Valued valued(const std::string& word);
+// Words that speak of what something is worth: "minds", "worse", "likes", "matters".
+[[nodiscard]] bool speaks_of_value(const std::string& word);
 
 // Words that begin a question of some kind.
 struct Opening {
