@@ -161,7 +161,8 @@ void expect_said_is_shown(const std::string& report) {
     EXPECT_TRUE(differs_in_periods) << headline;
   }
   const auto& cells = document.at("tables").at("cells");
-  const auto column = std::ranges::find(cells.at("columns"), "periods_mean") - cells.at("columns").begin();
+  const auto column =
+      static_cast<std::size_t>(std::ranges::find(cells.at("columns"), "periods_mean") - cells.at("columns").begin());
   std::set<double> periods;
   for (const auto& row : cells.at("rows"))
     if (row.at(column).is_number()) periods.insert(row.at(column).get<double>());
