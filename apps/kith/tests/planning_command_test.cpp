@@ -183,19 +183,19 @@ TEST(PowerCommand, SaysWhatIsWrong) {
   }
 }
 
-// The models are those that kith analyze then fits.
 // The mean of the only composition, as JSON has it.
 std::string mean_periods(const Json& report, const std::string& strategy) {
   const auto& cells = report.at("tables").at("cells");
   const auto column = [&](const std::string& name) {
     const auto& all = cells.at("columns");
-    return std::find(all.begin(), all.end(), name) - all.begin();
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin());
   };
   for (const auto& row : cells.at("rows"))
     if (row.at(column("strategy")) == strategy) return row.at(column("periods_mean")).dump();
   return "";
 }
 
+// The models are those that kith analyze then fits.
 TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
   const Scratch scratch;
   const auto file = scratch / "plan.md";
