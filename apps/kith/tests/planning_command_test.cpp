@@ -217,11 +217,13 @@ TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
   // A plan that is written later says so, and its teams are others than those of the study, with the same seed too.
   EXPECT_THAT(plan, HasSubstr("no finished run was found in `results/"));
   const auto late =
-      run_small({"power", "quick", "--effect", "periods: group - baseline", "--teams", "2", "--pool", "4", "--seed",
+      run_small({"power", "quick", "--effect", "periods: group - baseline", "--teams", "4", "--pool", "8", "--seed",
                  "1", "--set", "replicates=4", "--results", folder, "--preregister", file, "--draws", "20", "--json"});
   ASSERT_EQ(late.code, 0) << late.err;
   EXPECT_THAT(text_of(file), HasSubstr("**after the study was run**: `" + folder + "` holds a run of these inputs"));
-  const auto report = Json::parse(run_kith({"report", folder, "--json"}).out);
+  const auto pool = scratch / "pool";
+  ASSERT_EQ(run_small({"study", "quick", "-o", pool, "-q", "--set", "replicates=8"}).code, 0);
+  const auto report = Json::parse(run_kith({"report", pool, "--json"}).out);
   EXPECT_THAT(late.out, ::testing::Not(HasSubstr("\"mean\":" + mean_periods(report, "baseline") + ",")));
   // What was planned is proved to be what was run.
   const auto manifest = Json::parse(text_of(folder + "/manifest.json"));

@@ -68,7 +68,7 @@ std::string headline_about(const FirstScreen& screen, const std::string& factor,
   const auto& answer = knowledge ? *knowledge : *periods;
   if (!is_of_few(answer)) return "no difference between " + levels + " was found";
   const auto means = answer.means.empty() ? "" : ": " + answer.means + " " + answer.outcome;
-  return fmt::format("too few teams to tell whether {} differ{} (n = {})", levels, means, answer.teams);
+  return fmt::format("too few teams to compare {}{} (n = {})", levels, means, answer.teams);
 }
 
 // How much the strategies showed, where that may be why people know more.
