@@ -318,7 +318,8 @@ void expect_printed_is_computed(const nlohmann::json& overview, const TeamMeans&
     expect_reads(match[1], means.of("periods", means.teams(false) == 0));
   });
   // What the models estimate, and how many of what there is, is in the answers.
-  sentences.each("differ(: [0-9.]+ to [0-9.]+ [a-z -]+|) \\(n = [0-9]\\)", [](const std::smatch&) {});
+  sentences.each("compare (the [0-9]+ strategies|[a-z ]+|)(: [0-9.]+ to [0-9.]+ [a-z -]+|) \\(n = [0-9]\\)",
+                 [](const std::smatch&) {});
   sentences.each("the [0-9]+ strategies|[0-9]+ of [0-9]+ planned", [](const std::smatch&) {});
   EXPECT_FALSE(sentences.has_numbers()) << sentences.text();
 }
