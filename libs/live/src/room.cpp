@@ -74,11 +74,19 @@ std::optional<RoomCommand> command_of(const RoomEvent& event) {
   return command;
 }
 
+// Whether this can be what is left of an answer, see happening::Answered.
+bool is_remainder(const Json& erased, std::size_t num_features) {
+  if (!erased.is_object() || !erased.contains("counts") || !erased.value("finished", Json{}).is_boolean()) return false;
+  const auto& counts = erased["counts"];
+  return counts.is_null() || (counts.is_array() && counts.size() == num_features &&
+                              std::ranges::all_of(counts, [](const Json& count) { return count.is_number_integer(); }));
+}
+
 // Whether what is left of a deed of somebody who was withdrawn fits where it was.
 bool is_erased_deed(const RoomParts& room, const LiveSeat& person, const RoomEvent& event) {
   if (const auto* answer = event.get<happening::Answered>()) {
-    return !answer->erased.is_null() && room.state.phase == RoomPhase::kTesting && person.in_period &&
-           !person.has_answered && answer->test == current_test(person);
+    return is_remainder(answer->erased, room.study.spec.num_features) && room.state.phase == RoomPhase::kTesting &&
+           person.in_period && !person.has_answered && answer->test == current_test(person);
   }
   if (const auto* screened = event.get<happening::Screened>()) {
     return screened->actions.empty() && person.readiness == Readiness::kScreening &&
