@@ -99,6 +99,8 @@ TEST(LiveService, WithdrawsOnePersonAndKeepsTheOthers) {
   Group group{kQuestions};
   auto& [scratch, stage, solver, people] = group;
   ASSERT_TRUE(play(stage, people, solver));
+  EXPECT_FALSE(stage.join(stage.join_code(), {{"PROLIFIC_PID", "pid-b"}}).empty());
+  stage.service().settle();
   stage.stop();
   const auto before = exported(stage, {.room = {}, .with_names = true, .with_text = true});
   const auto now = stage.clock().now_us();
@@ -106,6 +108,7 @@ TEST(LiveService, WithdrawsOnePersonAndKeepsTheOthers) {
 
   const auto trial = withdraw(stage.folder(), "r1", 2, now, true);
   EXPECT_GT(trial.at("answered"), 0u);
+  EXPECT_EQ(trial.at("returned"), 1u);
   EXPECT_TRUE(is_stored(stage, "pid-b")) << "a trial changes nothing";
   EXPECT_THROW((void)withdraw(stage.folder(), "r1", 9, now), Error);
   EXPECT_EQ(withdraw(stage.folder(), "r1", 2, now), trial);

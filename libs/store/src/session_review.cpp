@@ -328,17 +328,30 @@ std::map<std::string, std::size_t> withdraw(const fs::path& folder, const std::s
   std::vector<StoredEvent> changed;
   std::map<std::string, std::size_t> counts;
   Json places = Json::array();
+  std::set<std::pair<std::string, std::size_t>> links;  // rooms, by id, and seats
   StoreBatch log;
   for (const auto& one : file.rooms()) {
     for (const auto& [number, whose] : seats) {
       if (number != one.number) continue;
       places.push_back({number, whose});
+      links.emplace(setup_of(one).id, whose);
       for (auto& event : without_person(file, one, whose, study)) {
         ++counts[event.type];
         changed.push_back(std::move(event));
       }
     }
   }
+  // The log says who followed their link again.
+  file.for_each_event(
+      [&](const StoredEvent& event) {
+        if (event.type != "returned") return;
+        const auto body = body_of(event);
+        if (links.count({body.value("room", std::string{}), body.value("seat", std::size_t{0})}) == 0) return;
+        ++counts[event.type];
+        changed.push_back(event);
+        changed.back().json = Json{{"room", kErased}, {"seat", 0}}.dump();
+      },
+      0);
   for (const auto& token : file.tokens()) {
     const StoredSeat place{token.room, static_cast<std::size_t>(token.seat)};
     const bool is_theirs = !token.revoked && std::find(seats.begin(), seats.end(), place) != seats.end();
