@@ -40,9 +40,7 @@ void BM_Period(benchmark::State& state, const std::string& strategy) {
       benchmark::Counter(static_cast<double>(periods), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK_CAPTURE(BM_Period, joint, std::string{"joint"})->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_Period, pick, std::string{"pick"})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_Period, plan, std::string{"plan"})->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_Period, adaptive, std::string{"adaptive"})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_Period, oracle, std::string{"oracle"})->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -112,21 +112,19 @@ TEST(PresumedKinds, AreTheSameFromOutside) {
 
 // Laws of sessions: replayed they are the same, and seats do not matter.
 TEST(PresumedKinds, ReplayAndChangeSeats) {
-  for (const char* name : {"plan", "adaptive"}) {
-    const auto strategy = strategy_named(name);
-    TeachingCache cache{item_delivery()};
-    const auto options = asking();
-    const auto session = taught(cache, options, strategy, {&imitating_model(), &decaying_model()}, {5, 6}, 3);
-    Session again{cache, options, strategy, {RandomStream{5}, RandomStream{6}}, RandomStream{1}};
-    for (const auto& event : session.events()) again.apply(event, cache);
-    EXPECT_TRUE(again == session) << name;
-    const auto other = taught(cache, options, strategy, {&decaying_model(), &imitating_model()}, {6, 5}, 3);
-    ASSERT_EQ(other.periods(), session.periods());
-    for (std::size_t t = 0; t < session.periods(); ++t) {
-      EXPECT_EQ(other.history()[t].lesson.demonstrations, session.history()[t].lesson.demonstrations) << name;
-    }
-    EXPECT_EQ(other.bank()->member(0).kinds(), session.bank()->member(1).kinds());
+  const auto strategy = strategy_named("plan");
+  TeachingCache cache{item_delivery()};
+  const auto options = asking();
+  const auto session = taught(cache, options, strategy, {&imitating_model(), &decaying_model()}, {5, 6}, 3);
+  Session again{cache, options, strategy, {RandomStream{5}, RandomStream{6}}, RandomStream{1}};
+  for (const auto& event : session.events()) again.apply(event, cache);
+  EXPECT_TRUE(again == session);
+  const auto other = taught(cache, options, strategy, {&decaying_model(), &imitating_model()}, {6, 5}, 3);
+  ASSERT_EQ(other.periods(), session.periods());
+  for (std::size_t t = 0; t < session.periods(); ++t) {
+    EXPECT_EQ(other.history()[t].lesson.demonstrations, session.history()[t].lesson.demonstrations);
   }
+  EXPECT_EQ(other.bank()->member(0).kinds(), session.bank()->member(1).kinds());
 }
 
 // Whoever is sure that people do not imitate does not choose other lessons than who does not think of it.
@@ -140,12 +138,12 @@ TEST(PresumedKinds, ChangeLessonsForPeopleWhoImitate) {
   const auto plan = strategy_named("plan");
   EXPECT_EQ(first_lesson(plan, {"bayesian"}).front().demo, first_lesson(plan, {"slipping"}).front().demo);
   EXPECT_NE(first_lesson(plan, {"bayesian"}).front().demo, first_lesson(plan, {"imitating"}).front().demo);
-  // "adaptive" waits until somebody is likelier to imitate than not.
-  auto adaptive = strategy_named("adaptive");
-  adaptive.parameters.set("answers", 0.0);
-  EXPECT_EQ(first_lesson(adaptive, {"bayesian", "slipping", "imitating"}),
-            first_lesson(adaptive, {"bayesian", "slipping"}));
-  EXPECT_NE(first_lesson(adaptive, {"slipping", "imitating", "imitating"}), first_lesson(adaptive, {"slipping"}));
+  // It waits until somebody is likelier to imitate than not.
+  auto patient = plan;
+  patient.parameters.set("answers", 0.0);
+  EXPECT_EQ(first_lesson(patient, {"bayesian", "slipping", "imitating"}),
+            first_lesson(patient, {"bayesian", "slipping"}));
+  EXPECT_NE(first_lesson(patient, {"slipping", "imitating", "imitating"}), first_lesson(patient, {"slipping"}));
 }
 
 // What imitators do with the robot's own demonstration of a start is right.

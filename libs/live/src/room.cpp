@@ -37,7 +37,7 @@ std::shared_ptr<const Session> make_session(const LiveStudy& study, const RoomSe
   auto options = study.spec.teaching;
   options.keep_members = true;  // facilitators see all beliefs, and may change the strategy
   options.keep_rules = true;
-  options.avoids_repeats = setup.avoids_repeats;
+  options.avoids_repeats = setup.lessons >= 1;
   const auto team = team_stream(study.spec, address_of(setup));
   std::vector<RandomStream> beliefs;
   for (std::size_t m = 0; m < setup.composition.size(); ++m) {
@@ -52,6 +52,15 @@ void check_setup(const LiveStudy& study, const RoomSetup& setup) {
   const auto& strategies = study.spec.strategies;
   const auto strategy =
       std::find_if(strategies.begin(), strategies.end(), [&](const auto& one) { return one.name == setup.strategy; });
+  const bool is_planner = strategy == strategies.end() ? setup.strategy == "adaptive" || setup.strategy == "pick"
+                                                       : strategy->kind.name == "plan";
+  if (is_planner && setup.lessons < 2) {
+    refuse_setup("room " + setup.id + " was taught by '" + setup.strategy +
+                 "' of an older version, which chose other lessons: open the folder with the version that began it");
+  }
+  if (setup.lessons > RoomSetup::kLessonRules) {
+    refuse_setup("room " + setup.id + " was set up by a newer version of kith: open the folder with that version");
+  }
   if (strategy == strategies.end()) refuse_setup("this study has no strategy '" + setup.strategy + "'");
   if (setup.composition.empty() || setup.composition.size() > 30) refuse_setup("a room has 1 to 30 seats");
   for (const char letter : setup.composition) {

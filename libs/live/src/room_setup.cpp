@@ -14,7 +14,7 @@ Json to_json(const RoomSetup& setup) {
             {"replicate", setup.replicate},
             {"salt", setup.salt}};
   if (setup.is_waiting_list) json["waiting_list"] = true;
-  if (setup.avoids_repeats) json["avoids_repeats"] = true;
+  if (setup.lessons > 0) json["lessons"] = setup.lessons;
   return json;
 }
 
@@ -29,7 +29,7 @@ RoomSetup room_setup(const Json& json) {
     setup.replicate = json.at("replicate").get<std::size_t>();
     setup.salt = json.at("salt").get<std::string>();
     setup.is_waiting_list = json.value("waiting_list", false);
-    setup.avoids_repeats = json.value("avoids_repeats", false);
+    setup.lessons = json.value("lessons", json.value("avoids_repeats", false) ? std::size_t{1} : std::size_t{0});
     return setup;
   } catch (const Json::exception& error) {
     throw Error{ErrorKind::kInvalidInput, std::string{"this is not the set-up of a room: "} + error.what()};

@@ -89,9 +89,12 @@ TEST(Room, RefusesASetUpThatCannotBeTaught) {
   EXPECT_THROW((void)room_setup(Json::array()), Error);
   // Rooms of before there was such a rule choose their lessons without it when they are repeated.
   auto old = to_json(setup);
-  EXPECT_TRUE(room_setup(old).avoids_repeats);
+  EXPECT_EQ(room_setup(old).lessons, RoomSetup::kLessonRules);
+  old.erase("lessons");
+  old["avoids_repeats"] = true;
+  EXPECT_EQ(room_setup(old).lessons, 1u);
   old.erase("avoids_repeats");
-  EXPECT_FALSE(room_setup(old).avoids_repeats);
+  EXPECT_EQ(room_setup(old).lessons, 0u);
 }
 
 TEST(Room, AsksScreeningTestsBeforeTheLobby) {

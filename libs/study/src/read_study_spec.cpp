@@ -118,6 +118,12 @@ class SpecReader {
         report_.error("E0418", entry.place, "strategy '" + entry.key + "' cannot be of the kind 'baseline'",
                       "list \"baseline\" itself in design.strategies");
       }
+      for (const auto* gone : {"expected_gain", "min_gain"}) {
+        const auto* value = kind->name == "plan" ? table->value(gone, Presence::kOptional) : nullptr;
+        if (value == nullptr) continue;
+        report_.warning("W0407", value->place(), in_quotes(gone) + " is no longer there and has no effect",
+                        "delete it: what people gain is a hypothesis, and a lesson is as long as it pays");
+      }
       own_strategies_.push_back({entry.key, *kind, read_parameters(*table, kind->parameters)});
       own_places_.push_back(entry.place);
       table->finish();
@@ -141,7 +147,13 @@ class SpecReader {
       if (std::find(names.begin(), names.end(), own.name) == names.end()) names.push_back(own.name);
     }
     for (const auto& element : *list) {
-      const auto& name = *element.string();
+      auto name = *element.string();
+      if (name == "adaptive" && !strategy_called(name)) {
+        report_.warning("W0406", element.place(), "strategy 'adaptive' is read as 'plan'",
+                        "'plan' does what 'adaptive' did: it finds out from their answers how well people learn");
+        name = "plan";
+        if (is_listed(name)) continue;
+      }
       auto strategy = strategy_called(name);
       if (!strategy) {
         report_.error("E0402", element.place(), "there is no strategy '" + name + "'", suggestion(name, names));

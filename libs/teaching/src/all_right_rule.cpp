@@ -1,5 +1,7 @@
 // Enough when everybody answered all tests right, several periods in a row [jayaraman2024].
 
+#include <algorithm>
+
 #include "kith/teaching/stop_rule.hpp"
 #include "kith/teaching/teaching_options.hpp"
 
@@ -14,6 +16,24 @@ bool is_all_right(const Feedback& feedback) {
   return true;
 }
 
+// Short lessons ask little: as many tests as the component has facets are needed, six of more.
+std::size_t tests_needed(const ClosedTests& closed) {
+  constexpr std::size_t kEnoughTests = 6;
+  if (!closed.view.has_short_lessons) return 0;
+  const auto& atlas = closed.view.atlas;
+  const auto& component = atlas.knowledge_components()[closed.lesson.component];
+  return std::min(component.constraints.without(atlas.prior()).count(), kEnoughTests);
+}
+
+// Whether so many periods in a row, of which this one is the last, are enough.
+bool is_enough(const ClosedTests& closed, std::size_t row) {
+  if (row < closed.view.options.consecutive_correct) return false;
+  std::size_t tests = closed.lesson.tests.size();
+  const auto& history = closed.view.history;
+  for (auto past = history.end(); row > 1 && past != history.begin(); --row) tests += (--past)->lesson.tests.size();
+  return tests >= tests_needed(closed);
+}
+
 class AllRightRule : public StopRule {
  public:
   [[nodiscard]] StopVerdict judge_team(const ClosedTests& closed) const override {
@@ -24,11 +44,11 @@ class AllRightRule : public StopRule {
       --past;
       if (past->lesson.component != closed.lesson.component || !is_all_right(past->feedback)) break;
     }
-    return {row >= closed.view.options.consecutive_correct, 1.0};
+    return {is_enough(closed, row), 1.0};
   }
 
   [[nodiscard]] bool is_done(const ClosedTests& closed, std::size_t member) const override {
-    return closed.rows[member] >= closed.view.options.consecutive_correct;
+    return is_enough(closed, closed.rows[member]);
   }
 };
 
@@ -44,7 +64,10 @@ namespace detail {
 
 StopRuleKind all_right_kind() {
   return {.name = "all-right",
-          .description = "when everybody answered all tests right, consecutive_correct periods in a row",
+          .description =
+              "when everybody answered all tests right, consecutive_correct periods in a row (of plan, whose lessons "
+              "are short, "
+              "until they have as many tests as the component has facets, at most six)",
           .make = [](const ParameterValues&, TeachingCache&) -> std::unique_ptr<const StopRule> {
             return std::make_unique<AllRightRule>();
           },

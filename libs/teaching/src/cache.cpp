@@ -62,6 +62,16 @@ ImitationTable& TeachingCache::imitation() {
   return *imitation_;
 }
 
+const ExamWorth& TeachingCache::worth_of(std::size_t component) {
+  constexpr std::size_t kPriorPoints = 1000;
+  worth_.resize(atlas_->knowledge_components().size());
+  auto& known = worth_.at(component);
+  if (!known)
+    known =
+        std::make_unique<const ExamWorth>(behaviours(), exam(), cover(atlas_->prior_cone(), kPriorPoints), component);
+  return *known;
+}
+
 const std::shared_ptr<const StartSample>& TeachingCache::starts_of(std::size_t component) {
   starts_.resize(atlas_->knowledge_components().size());
   auto& known = starts_.at(component);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kith/teaching/strategy.hpp"
-#include "plan_unit.hpp"
+#include "unit_of.hpp"
 
 namespace kith {
 

@@ -30,12 +30,11 @@ void ImaginedPeople::add(Behaviours& behaviours, const Direction& person) {
   weights.push_back(person);
 }
 
-ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs, std::size_t n,
-                              RandomStream random) {
+ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
+                              const NumImagined& num, RandomStream random) {
   std::vector<Direction> drawn;
   const auto& cover = cache.cover(cache.atlas().prior_cone(), beliefs.front()->size());
-  const auto positions = [&](RandomStream stream) {
-    const double offset = uniform01(stream);
+  const auto positions = [](std::size_t n, double offset) {
     std::vector<double> result;
     for (std::size_t i = 0; i < n; ++i) result.push_back((static_cast<double>(i) + offset) / static_cast<double>(n));
     return result;
@@ -43,10 +42,10 @@ ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBeli
   const auto at = [](double position, std::size_t size) {
     return std::min(static_cast<std::size_t>(position * static_cast<double>(size)), size - 1);
   };
-  for (const double position : positions(random.split("prior"))) {
+  for (const double position : positions(num.prior, 0.5)) {
     drawn.push_back(cover.point(at(position, cover.size())));
   }
-  for (const double position : positions(random.split("beliefs"))) {
+  for (const double position : positions(num.beliefs, uniform01(random))) {
     const auto i = at(position, beliefs.size());
     const double within = position * static_cast<double>(beliefs.size()) - static_cast<double>(i);
     drawn.push_back(beliefs[i]->point(quantile(*beliefs[i], within)));

@@ -17,10 +17,15 @@ struct ImaginedPeople {
   void add(Behaviours& behaviours, const Direction& person);
 };
 
-// `n` systematic draws from the prior and as many from the beliefs together, each belief weighing the same.
+struct NumImagined {
+  std::size_t prior = 0;
+  std::size_t beliefs = 0;
+};
+
+// Systematic draws from the prior, the same in every lesson, and from the beliefs together, each weighing the same.
 // @param beliefs  in an order that does not depend on seats. Not empty.
 [[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
-                                            std::size_t n, RandomStream random);
+                                            const NumImagined& n, RandomStream random);
 
 // What is open of `facets` where `shown`, which is minimal, is known.
 [[nodiscard]] ConstraintSet open_facets(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown);

@@ -125,11 +125,16 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
   taught_before_ = cache.constraints().half_spaces(cache.regions().minimal(atlas_->prior()));
   taught_with_unit_ = taught_before_;
   make_rules(cache);
-  if (options_.scaffold == Scaffold::kNone && !components_.empty()) {
+  if (teaches_whole() && !components_.empty()) {
     component_ = components_.size() - 1;
     std::fill(components_.begin(), components_.end() - 1, ComponentStatus::kSkipped);
   }
   for (const auto& person : persons_) tie_breaks_.push_back(person.address());
+}
+
+bool Session::teaches_whole() const noexcept {
+  return options_.scaffold == Scaffold::kNone ||
+         (options_.scaffold == Scaffold::kOfStrategy && choice_.kind.teaches_whole);
 }
 
 void Session::require_phase(SessionPhase phase, std::string_view what) const {
@@ -206,7 +211,7 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
   for (; component_ < component; ++component_) components_[component_] = ComponentStatus::kSkipped;
   if (!prepared) {
     // Those that are left out by design do not count.
-    const auto first = options_.scaffold == Scaffold::kNone ? components_.end() - 1 : components_.begin();
+    const auto first = teaches_whole() ? components_.end() - 1 : components_.begin();
     status_ = is_anything_open(cache, static_cast<std::size_t>(first - components_.begin())) ? SessionStatus::kSkipped
                                                                                              : SessionStatus::kComplete;
     phase_ = SessionPhase::kFinished;
@@ -236,7 +241,8 @@ TeachingView Session::view(const TeamBelief& belief, std::size_t component) cons
           .tie_breaks = tie_breaks_,
           .period = periods() + 1,
           .component = component,
-          .bank = bank_ ? &*bank_ : nullptr};
+          .bank = bank_ ? &*bank_ : nullptr,
+          .has_short_lessons = choice_.kind.teaches_whole};
 }
 
 // The lesson of one component; nothing if there is nothing to teach.
@@ -275,15 +281,16 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
   lesson.period = periods() + 1;
   lesson.component = component;
   lesson.source = std::move(proposal.source);
-  lesson.tests.clear();
-  const auto examined = to_examine(lesson, cache);
   VisitedStarts demonstrated{atlas_->num_states()};
   for (const auto& period : history_) {
     for (const auto& shown : period.lesson.demonstrations) demonstrated.insert(shown.demo);
   }
   for (const auto& shown : lesson.demonstrations) demonstrated.insert(shown.demo);
+  lesson.tests = std::move(proposal.tests);
+  for (const auto& test : lesson.tests) next.visited.insert(test.demo);
+  const auto examined = lesson.tests.empty() ? to_examine(lesson, cache) : std::vector<HalfSpace>{};
   const TestPreferences preferences{cache, demonstrated, options_.avoids_shortest};
-  for (std::size_t set = 0; set < options_.duplicate_sets; ++set) {
+  for (std::size_t set = 0; !examined.empty() && set < options_.duplicate_sets; ++set) {
     auto choice =
         select_tests(*atlas_, atlas_->knowledge_components()[component], lesson.demonstrations, examined, next.visited,
                      random.split("tests").split(set), options_.avoids_repeats ? &preferences : nullptr);

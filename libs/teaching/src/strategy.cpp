@@ -13,9 +13,7 @@ StrategyKind individual_low_kind();
 StrategyKind individual_high_kind();
 StrategyKind common_kind();
 StrategyKind joint_kind();
-StrategyKind pick_kind();
 StrategyKind plan_kind();
-StrategyKind adaptive_kind();
 StrategyKind oracle_kind();
 StrategyKind random_kind();
 StrategyKind set_cover_kind();
@@ -25,10 +23,9 @@ StrategyKind highlights_kind();
 
 std::span<const StrategyKind> strategy_kinds() noexcept {
   static const std::array kinds{
-      detail::baseline_kind(), detail::individual_low_kind(), detail::individual_high_kind(),
-      detail::common_kind(),   detail::joint_kind(),          detail::pick_kind(),
-      detail::plan_kind(),     detail::adaptive_kind(),       detail::oracle_kind(),
-      detail::random_kind(),   detail::set_cover_kind(),      detail::highlights_kind(),
+      detail::baseline_kind(),  detail::individual_low_kind(), detail::individual_high_kind(), detail::common_kind(),
+      detail::joint_kind(),     detail::plan_kind(),           detail::oracle_kind(),          detail::random_kind(),
+      detail::set_cover_kind(), detail::highlights_kind(),
   };
   return kinds;
 }

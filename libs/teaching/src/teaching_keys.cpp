@@ -14,7 +14,8 @@ template <>
 inline constexpr std::array kWordsFor<LikelihoodForm>{WordFor{LikelihoodForm::kDiscontinuous, "discontinuous"},
                                                       WordFor{LikelihoodForm::kContinuous, "continuous"}};
 template <>
-inline constexpr std::array kWordsFor<Scaffold>{WordFor{Scaffold::kFeatures, "features"},
+inline constexpr std::array kWordsFor<Scaffold>{WordFor{Scaffold::kOfStrategy, "strategy"},
+                                                WordFor{Scaffold::kFeatures, "features"},
                                                 WordFor{Scaffold::kNone, "none"}};
 template <>
 inline constexpr std::array kWordsFor<TeachingObjective>{WordFor{TeachingObjective::kRight, "right"},
@@ -54,10 +55,12 @@ std::span<const OptionKey<TeachingOptions>> teacher_keys() {
           "reduce_before_update",
           "whether the common belief gets only the minimal set of the half-spaces that answers show"),
       option_key<T, &T::review>("review", "whether every component is taught as if nothing had been taught before"),
-      option_key<T, &T::scaffold>("scaffold", "'features': components one after the other; 'none': the last one alone"),
+      option_key<T, &T::scaffold>(
+          "scaffold",
+          "'features': components one after the other; 'none': the last one alone; 'strategy': as it is made for"),
       option_key<T, &T::max_demonstrations>(
           "max_demonstrations", "demonstrations per lesson at most; 0: as many as the strategy wants", {0, 1000}),
-      option_key<T, &T::objective>("objective", "what strategies that look ahead maximise"),
+      option_key<T, &T::objective>("objective", "what strategies that look ahead lower"),
       option_key<T, &T::hypotheses_about>("hypotheses",
                                           "what the teacher's hypotheses about a member differ in: 'ability', "
                                           "'known-components', 'kinds' of learners or, in nothing, 'average'"),

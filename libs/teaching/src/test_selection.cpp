@@ -1,11 +1,10 @@
 #include "kith/teaching/test_selection.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <utility>
 
-#include "visual_order.hpp"
+#include "test_order.hpp"
 
 namespace kith {
 namespace {
@@ -152,32 +151,8 @@ class TestSelection {
     return test;
   }
 
-  // Those that people who only take the shortest path get wrong, if there are any.
-  [[nodiscard]] std::vector<StartIndex> telling(std::vector<StartIndex> demos) const {
-    if (preferences_ == nullptr || !preferences_->avoids_shortest) return demos;
-    std::vector<StartIndex> found;
-    std::ranges::copy_if(demos, std::back_inserter(found),
-                         [&](StartIndex demo) { return preferences_->cache.is_shortest_wrong(demo); });
-    return found.empty() ? demos : found;
-  }
-
-  // Most complex, then least like the unit's demonstrations on average, then chance.
-  [[nodiscard]] StartIndex most_complex(const std::vector<StartIndex>& all) const {
-    const auto demos = telling(all);
-    StartIndex best;
-    std::optional<VisualKey> best_key;
-    for (const auto demo : demos) {
-      const auto id = atlas_.id(demo);
-      VisualKey key{-atlas_.complexity(demo), 0, 0};
-      if (best_key && key.complexity > best_key->complexity) continue;
-      for (const auto& shown : unit_) key.dissimilarity -= atlas_.domain().dissimilarity(id, atlas_.id(shown.demo));
-      if (best_key && key > *best_key) continue;
-      key.chance = chance_of(demo, random_);
-      if (best_key && key >= *best_key) continue;
-      best_key = key;
-      best = demo;
-    }
-    return best;
+  [[nodiscard]] StartIndex most_complex(const std::vector<StartIndex>& starts) const {
+    return test_to_ask(atlas_, starts, unit_, random_, preferences_);
   }
 
   const Atlas& atlas_;

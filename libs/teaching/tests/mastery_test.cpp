@@ -216,7 +216,7 @@ TEST(Review, StartsEveryComponentFromThePrior) {
 
 TEST(MaxDemonstrations, LimitsEveryLesson) {
   TeachingCache cache{item_delivery()};
-  for (const auto* strategy : {"joint", "plan", "pick"}) {
+  for (const auto* strategy : {"joint", "plan"}) {
     auto session = session_of_two(cache, strategy, {.max_demonstrations = 1});
     while (session.propose(cache)) {
       EXPECT_EQ(session.lesson().demonstrations.size(), 1u) << strategy;

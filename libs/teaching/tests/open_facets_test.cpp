@@ -65,7 +65,7 @@ ConstraintSet all_shown(const Session& session, TeachingCache& cache) {
 }
 
 // Those that choose demonstrations with UnitSelector::for_belief().
-constexpr const char* kForBeliefs[] = {"baseline", "individual-low", "individual-high", "common", "joint", "pick"};
+constexpr const char* kForBeliefs[] = {"baseline", "individual-low", "individual-high", "common", "joint"};
 
 // Whatever is examined, demonstrations have shown before, with however few counterfactuals; and nothing is skipped that
 // could be shown.

@@ -28,8 +28,11 @@ struct RoomSetup {
   /// Nobody is taught here: people are screened and wait until a group can be formed of them, see Room::next_group().
   /// Strategy and composition say nothing then.
   bool is_waiting_list = false;
-  /// TeachingOptions::avoids_repeats; rooms that were set up before there was such a rule do without.
-  bool avoids_repeats = true;
+  /// By which rules lessons are chosen, so that a room that was set up by older ones is replayed as it was: before 1
+  /// starts were shown again (TeachingOptions::avoids_repeats); before 2 `plan` was another strategy, so that rooms with
+  /// it are refused.
+  std::size_t lessons = kLessonRules;
+  static constexpr std::size_t kLessonRules = 2;
 
   friend bool operator==(const RoomSetup&, const RoomSetup&) = default;
 };

@@ -13,6 +13,7 @@
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/exam.hpp"
+#include "kith/teaching/exam_worth.hpp"
 #include "kith/teaching/imitation_table.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
@@ -84,8 +85,12 @@ class TeachingCache {
   /// What imitating demonstrations comes to in the exam, made when first asked for; until trim().
   ImitationTable& imitation();
 
-  /// The starts of a component by which a session may stop, and those by which units are judged where behaviours are
-  /// not tabulated; made when first asked for. The references stay valid as long as this object.
+  /// What people get right on a component's starts, made when first asked for. The reference stays valid as long as
+  /// this object.
+  const ExamWorth& worth_of(std::size_t component);
+
+  /// The starts of a component by which a session may stop, and its tests where behaviours are not tabulated; made when
+  /// first asked for. The references stay valid as long as this object.
   const std::shared_ptr<const StartSample>& starts_of(std::size_t component);
   const std::shared_ptr<const StartSample>& tests_of(std::size_t component);
 
@@ -104,6 +109,7 @@ class TeachingCache {
   std::shared_ptr<const Exam> exam_;
   std::vector<std::optional<bool>> is_shortest_wrong_;  // per start
   std::optional<ImitationTable> imitation_;
+  std::vector<std::unique_ptr<const ExamWorth>> worth_;     // per component
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
   std::vector<std::shared_ptr<const StartSample>> tests_;   // per component
   std::list<PriorCover> covers_;                            // few: one per prior and filter size of a study

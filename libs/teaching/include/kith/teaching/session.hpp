@@ -175,6 +175,7 @@ class Session {
   };
   struct Prepared;
 
+  [[nodiscard]] bool teaches_whole() const noexcept;
   void require_phase(SessionPhase phase, std::string_view what) const;
   void require_away(std::size_t member, std::string_view what) const;
   void require_seat(std::size_t member) const;

@@ -41,6 +41,7 @@ struct TeachingView {
   std::size_t period = 1;                     ///< The coming one: 1, 2, ...
   std::size_t component = 0;                  ///< What is to be taught: index into Atlas::knowledge_components().
   const TeamBank* bank = nullptr;             ///< If StrategyKind::needs asked for it.
+  bool has_short_lessons = false;             ///< StrategyKind::teaches_whole
   std::span<const MemberTruth> truth{};       ///< Per member; empty unless they are simulated.
 };
 
@@ -48,6 +49,8 @@ struct TeachingView {
 struct UnitProposal {
   SourceBelief source;
   Unit unit;  ///< Without demonstrations if showing anything would be useless.
+  /// Of a strategy that chooses its tests; without any the session chooses them, by what the lesson teaches.
+  std::vector<Test> tests{};
 };
 
 /// How a team is taught: chooses what is shown next. It may have a state of its own and may look ahead.
@@ -87,6 +90,8 @@ struct StrategyKind {
   std::unique_ptr<Strategy> (*make)(const ParameterValues& parameters);
   std::span<const Parameter> parameters{};  ///< Keys of its table in a study file.
   bool needs_truth = false;  ///< Whether it reads TeachingView::truth, so that it can teach simulated people only.
+  /// Whether it orders what it teaches itself, unless Scaffold::kFeatures is asked for, in short lessons.
+  bool teaches_whole = false;
 };
 
 /// The built-in kinds, in the order of the documentation. Functions that look a strategy up take a list of kinds, so

@@ -18,15 +18,16 @@ namespace kith {
 
 /// What the components are.
 enum class Scaffold {
-  kFeatures,  ///< Atlas::knowledge_components(), one after the other [jayaraman2024].
-  kNone,      ///< The last of them alone, which has all features; the others count as skipped.
+  kOfStrategy,  ///< As the strategy is made for: kNone if StrategyKind::teaches_whole, else kFeatures.
+  kFeatures,    ///< Atlas::knowledge_components(), one after the other [jayaraman2024].
+  kNone,        ///< The last of them alone, which has all features; the others count as skipped.
 };
 
-/// What strategies that look ahead maximise; see UnitValue.
+/// What strategies that look ahead lower, on the component's starts.
 enum class TeachingObjective {
-  kRight,        ///< The tests that the members are expected to answer right.
-  kRegret,       ///< Less regret on the component's starts.
-  kWorstMember,  ///< The tests that the member who is expected to do worst answers right.
+  kRegret,       ///< The regret of all members: the mean of its logarithm.
+  kRight,        ///< The same of the share of starts that they predict wrongly.
+  kWorstMember,  ///< The regret of the member who is expected to do worst.
 };
 
 /// What the hypotheses of a LearnerBank differ in.
@@ -49,9 +50,9 @@ struct TeachingOptions {
   /// Whether every component is taught as if nothing had been taught before it: the taught region starts from the
   /// prior. Otherwise what the components before conveyed has no gain and is not shown again, understood or not.
   bool review = false;
-  Scaffold scaffold = Scaffold::kFeatures;
+  Scaffold scaffold = Scaffold::kOfStrategy;
   std::size_t max_demonstrations = 0;  ///< per lesson; 0: as many as the strategy wants
-  TeachingObjective objective = TeachingObjective::kRight;
+  TeachingObjective objective = TeachingObjective::kRegret;
 
   StopChoice mastery = stop_rule_named("all-right");  ///< When a component has been taught enough.
   std::size_t max_periods = 50;                       ///< >= 1

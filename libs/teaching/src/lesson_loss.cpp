@@ -1,4 +1,4 @@
-#include "kith/teaching/unit_value.hpp"
+#include "lesson_loss.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,9 @@ namespace kith {
 namespace {
 
 constexpr double kMostCertain = 1.0 - 1e-9;  // certainty could exclude every point
+constexpr double kFloor = 0.001;             // of what people get wrong before teaching
 
-KITH_VECTOR_CLONES void multiply(std::vector<double>& product, const std::vector<double>& factors) {
+KITH_VECTOR_CLONES void multiply_all(std::vector<double>& product, const std::vector<double>& factors) {
   double* const p = product.data();
   const double* const f = factors.data();
   KITH_INDEPENDENT_LOOP
@@ -21,9 +22,9 @@ KITH_VECTOR_CLONES void multiply(std::vector<double>& product, const std::vector
 
 }  // namespace
 
-UnitValue::UnitValue(TeachingCache& cache, std::size_t component,
-                     std::span<const std::vector<MemberHypothesis>> members, std::span<const std::uint64_t> tie_breaks,
-                     const Options& options, RandomStream random)
+LessonLoss::LessonLoss(TeachingCache& cache, std::size_t component,
+                       std::span<const std::vector<MemberHypothesis>> members,
+                       std::span<const std::uint64_t> tie_breaks, const Options& options, RandomStream random)
     : options_{options},
       constraints_{&cache.constraints()},
       dimension_{cache.atlas().domain().num_features()},
@@ -46,10 +47,19 @@ UnitValue::UnitValue(TeachingCache& cache, std::size_t component,
     }
     num_members_ += counts ? 1 : 0;
   }
-  grade_points(cache, component);
+  const auto wrong = [&](const Grade& grade) {
+    return options_.objective == TeachingObjective::kRight ? 1.0 - grade.share_right : grade.regret;
+  };
+  const auto& worth = cache.worth_of(component);
+  floor_ = std::max(kFloor * wrong(worth.before()), std::numeric_limits<double>::min());
+  Direction weights(static_cast<Eigen::Index>(dimension_));
+  for (std::size_t i = 0; i < mass_.size(); ++i) {
+    for (std::size_t k = 0; k < dimension_; ++k) weights[static_cast<Eigen::Index>(k)] = axes_[k][i];
+    wrong_.push_back(wrong(worth.of(cache.behaviours(), weights)));
+  }
 }
 
-Imitation UnitValue::imitation() const {
+Imitation LessonLoss::imitation() const {
   std::vector<double> weights(num_members_, 0.0);
   for (const auto& part : parts_) weights[part.member] += part.weight;
   Imitation all;
@@ -63,8 +73,8 @@ Imitation UnitValue::imitation() const {
   return all;
 }
 
-void UnitValue::add_part(std::size_t member, const MemberHypothesis& hypothesis, std::size_t points,
-                         RandomStream random) {
+void LessonLoss::add_part(std::size_t member, const MemberHypothesis& hypothesis, std::size_t points,
+                          RandomStream random) {
   const auto& belief = *hypothesis.belief;
   const auto begin = mass_.size();
   for (const auto& draw : belief.systematic_draws(points, random)) {
@@ -77,23 +87,7 @@ void UnitValue::add_part(std::size_t member, const MemberHypothesis& hypothesis,
        HalfSpaceLikelihood{std::min(hypothesis.feedback_ability, kMostCertain), options_.likelihood, dimension_}});
 }
 
-void UnitValue::grade_points(TeachingCache& cache, std::size_t component) {
-  const auto& atlas = cache.atlas();
-  worth_.assign(mass_.size(), 0.0);
-  if (const auto* tables = atlas.find_tables()) {
-    const auto& table = *cache.exam().table();
-    for (std::size_t i = 0; i < worth_.size(); ++i) {
-      const auto cell = tables->cells().locate(Eigen::Vector3d{axes_[0][i], axes_[1][i], axes_[2][i]});
-      worth_[i] = options_.objective == TeachingObjective::kRegret ? -table.component(cell, component).regret
-                                                                   : table.tests_right(cell, component);
-    }
-    return;
-  }
-  std::vector<std::span<const double>> points(axes_.begin(), axes_.end());
-  worth_ = cache.tests_of(component)->share_right(points);
-}
-
-const UnitValue::Factors& UnitValue::factors(ConstraintIndex c) {
+const LessonLoss::Factors& LessonLoss::factors(ConstraintIndex c) {
   const auto [place, is_new] = factors_.try_emplace(c.value());
   auto& known = place->second;
   if (!is_new) return known;
@@ -115,45 +109,32 @@ const UnitValue::Factors& UnitValue::factors(ConstraintIndex c) {
   return known;
 }
 
-void UnitValue::multiply_shown(const ConstraintSet& conveyed) {
-  for (const auto c : conveyed.members()) multiply(product_, factors(c).shown);
+void LessonLoss::show(Product& product, const ConstraintSet& conveyed) {
+  for (const auto c : conveyed.members()) multiply_all(product, factors(c).shown);
 }
 
-double UnitValue::of(std::span<const ConstraintSet> shown, const ConstraintSet& taught) {
-  if (shown.empty()) {
-    product_ = mass_;
-  } else {
-    const auto before = shown.first(shown.size() - 1);
-    if (product_before_.empty() || !std::equal(before.begin(), before.end(), before_.begin(), before_.end())) {
-      product_ = mass_;
-      for (const auto& conveyed : before) multiply_shown(conveyed);
-      before_.assign(before.begin(), before.end());
-      product_before_ = product_;
-    }
-    product_ = product_before_;
-    multiply_shown(shown.back());
-  }
+void LessonLoss::repeat(Product& product, const ConstraintSet& feedback) {
+  for (const auto c : feedback.members()) multiply_all(product, factors(c).feedback);
+}
 
-  for (const auto c : taught.members()) multiply(product_, factors(c).feedback);
-  std::vector<double> members(num_members_, 0.0);
-  std::vector<double> weights(num_members_, 0.0);
+double LessonLoss::of(const Product& product, double of_imitating) const {
+  std::vector<double> losses(num_members_, 0.0), weights(num_members_, 0.0);
   for (const Part& part : parts_) {
-    double mass = 0.0;
-    double worth = 0.0;
+    double mass = 0.0, wrong = 0.0;
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      mass += product_[i];
-      worth += product_[i] * worth_[i];
+      mass += product[i];
+      wrong += product[i] * wrong_[i];
     }
+    if (!(mass > 0.0)) continue;
+    const double q = part.imitation.probability;
+    losses[part.member] += part.weight * std::log((1.0 - q) * wrong / mass + q * of_imitating + floor_);
     weights[part.member] += part.weight;
-    if (mass > 0.0) members[part.member] += part.weight * (1.0 - part.imitation.probability) * worth / mass;
   }
-
-  double sum = 0.0;
-  double worst = std::numeric_limits<double>::infinity();
+  double sum = 0.0, worst = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < num_members_; ++i) {
-    const double value = members[i] / weights[i];
-    sum += value;
-    worst = std::min(worst, value);
+    const double loss = weights[i] > 0.0 ? losses[i] / weights[i] : 0.0;
+    sum += loss;
+    worst = std::max(worst, loss);
   }
   if (num_members_ == 0) return 0.0;
   return options_.objective == TeachingObjective::kWorstMember ? worst : sum / static_cast<double>(num_members_);
