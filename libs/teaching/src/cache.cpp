@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kith/domains/judgement.hpp"
+#include "kith/teaching/exam_worth.hpp"
 #include "kith/teaching/teaching_options.hpp"
 
 namespace kith {
@@ -68,7 +69,7 @@ const ExamWorth& TeachingCache::worth_of(std::size_t component) {
   auto& known = worth_.at(component);
   if (!known)
     known =
-        std::make_unique<const ExamWorth>(behaviours(), exam(), cover(atlas_->prior_cone(), kPriorPoints), component);
+        std::make_shared<const ExamWorth>(behaviours(), exam(), cover(atlas_->prior_cone(), kPriorPoints), component);
   return *known;
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kith/core/vector_clones.hpp"
+#include "kith/teaching/exam_worth.hpp"
 
 namespace kith {
 namespace {

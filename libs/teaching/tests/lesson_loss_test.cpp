@@ -6,6 +6,7 @@
 
 #include "item_delivery.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/teaching/exam_worth.hpp"
 
 namespace kith {
 namespace {

@@ -13,7 +13,6 @@
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/exam.hpp"
-#include "kith/teaching/exam_worth.hpp"
 #include "kith/teaching/imitation_table.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
@@ -21,6 +20,7 @@
 
 namespace kith {
 
+class ExamWorth;
 struct TeachingOptions;
 
 /// What sessions over one domain compute again and again: regions of constraint sets, what people do and what
@@ -109,7 +109,7 @@ class TeachingCache {
   std::shared_ptr<const Exam> exam_;
   std::vector<std::optional<bool>> is_shortest_wrong_;  // per start
   std::optional<ImitationTable> imitation_;
-  std::vector<std::unique_ptr<const ExamWorth>> worth_;     // per component
+  std::vector<std::shared_ptr<const ExamWorth>> worth_;     // per component
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
   std::vector<std::shared_ptr<const StartSample>> tests_;   // per component
   std::list<PriorCover> covers_;                            // few: one per prior and filter size of a study
