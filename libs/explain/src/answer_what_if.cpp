@@ -101,7 +101,7 @@ MdpIndex Answerer::world_to_change(bool removes) const {
     }
     if (changes_all && family.contains(variant)) return base;
   }
-  return removes ? last_world() : MdpIndex{0};
+  return removes ? MdpIndex{n - 1} : MdpIndex{0};
 }
 
 MdpIndex Answerer::world_with(MdpIndex base) const {

@@ -19,8 +19,9 @@ Answerer::Spot Answerer::spot_of(MdpIndex world, StateIndex s) const {
 }
 
 void Answerer::add_places(MdpIndex world, std::map<Spot, Place>& places) const {
-  const auto demo = atlas_.index({world, domain_.initial_state(world)});
-  if (!scene_.was_seen(demo)) return;
+  const auto start = scene_.start_in(world);
+  if (!start) return;
+  const auto demo = *start;
   const auto path = atlas_.trajectory(demo);
   std::map<Spot, std::optional<std::size_t>> seen;  // and at which step it happens
   std::map<Spot, std::size_t> first_visit;
@@ -51,8 +52,8 @@ void Answerer::where() {
   for (MdpIndex m{first}; m.value() < end; ++m) add_places(m, places);
   std::erase_if(places, [](const auto& entry) { return entry.second.worlds == 0; });
   if (places.empty()) {
-    reply_.text = first_upper(says_that(happening, Happens::kYes)) +
-                  (question_.negated ? " everywhere " : " nowhere ") + on_the_way() + ".";
+    reply_.text = first_upper(says_that(happening, Happens::kYes)) + (question_.negated ? " everywhere" : " nowhere") +
+                  scene_.condition() + " " + on_the_way() + ".";
     return show_world(look_at(scene_.needed_start(question_.world.value_or(last_world()))));
   }
   std::vector<Place> sorted;
@@ -60,7 +61,8 @@ void Answerer::where() {
   for (const auto& [spot, place] : places) sorted.push_back(place);
   std::stable_sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) { return a.worlds > b.worlds; });
   const auto how = question_.negated ? Happens::kNo : domain_.is_exact() ? Happens::kYes : Happens::kMaybe;
-  reply_.text = first_upper(says_that(happening, how)) + " " + listed(place_texts(sorted)) + ", " + on_the_way() + ".";
+  reply_.text = first_upper(says_that(happening, how)) + " " + listed(place_texts(sorted)) + "," + scene_.condition() +
+                " " + on_the_way() + ".";
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxCells); ++i) {
     const auto& place = sorted[i];
     show(place.demo,

@@ -46,7 +46,8 @@ std::string Answerer::worlds_text(std::size_t n, std::size_t of) const {
 }
 
 std::string Answerer::from_the_start() const {
-  return question_.is_about_a_step() ? " as the next step" + scene_.spot() : " on the way from " + start();
+  return scene_.condition() +
+         (question_.is_about_a_step() ? " as the next step" + scene_.spot() : " on the way from " + start());
 }
 
 std::string Answerer::on_the_way() const {

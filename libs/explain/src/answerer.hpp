@@ -27,7 +27,13 @@ class Answerer {
   Reply reply();
 
  private:
-  [[nodiscard]] MdpIndex last_world() const { return MdpIndex{domain_.num_mdps() - 1}; }
+  // The last world of those that the question is about, or of all if it is about none.
+  [[nodiscard]] MdpIndex last_world() const {
+    for (auto m = domain_.num_mdps(); m-- > 0;) {
+      if (scene_.is_asked_about(MdpIndex{m})) return MdpIndex{m};
+    }
+    return MdpIndex{domain_.num_mdps() - 1};
+  }
   [[nodiscard]] std::string worlds_text(std::size_t n, std::size_t of) const;
 
   [[nodiscard]] std::string start() const { return map_ ? "the map's start" : "the first state"; }

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cctype>
 
-#include "kith/core/diagnostic.hpp"
-#include "kith/explain/words.hpp"
 #include "question_words.hpp"
 
 namespace kith::detail {
 namespace {
-
-bool ends_with(const std::string& word, const std::string& ending) {
-  return word.size() > ending.size() && word.compare(word.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 std::vector<std::string> plain_words(const std::string& text) {
   std::vector<std::string> words{""};
@@ -27,49 +21,10 @@ std::vector<std::string> plain_words(const std::string& text) {
   return words;
 }
 
-}  // namespace
-
-std::string stem(std::string word) {
-  static const std::map<std::string, std::string> kIrregular{
-      {"fell", "fall"},    {"fallen", "fall"},  {"took", "take"},     {"taken", "take"},     {"came", "come"},
-      {"drove", "drive"},  {"driven", "drive"}, {"went", "go"},       {"left", "left"},      {"ate", "eat"},
-      {"eaten", "eat"},    {"ran", "run"},      {"person", "people"}, {"persons", "people"}, {"humans", "people"},
-      {"human", "people"}, {"met", "meet"}};
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ends_with(word, "'s")) word.resize(word.size() - 2);
-  const auto irregular = kIrregular.find(word);
-  if (irregular != kIrregular.end()) word = irregular->second;
-  constexpr std::size_t kShort = 4;
-  const auto drop = [&](std::size_t n) { word.resize(word.size() - n); };
-  if (word.size() > kShort && ends_with(word, "ing")) {
-    drop(3);
-  } else if (word.size() > kShort && (ends_with(word, "ies") || ends_with(word, "ed"))) {
-    drop(2);
-  } else if (word.size() > 3 && ends_with(word, "s")) {
-    drop(1);
-  }
-  if (word.size() > 3 && ends_with(word, "e")) drop(1);
-  if (word.size() > 3 && word.back() == word[word.size() - 2]) drop(1);
-  if (word.size() > 3 && word.back() == 'y') word.back() = 'i';
-  return word;
-}
-
-namespace {
-
-// Words that people use for each other. Where a domain knows one of a row, it understands the others.
-const std::vector<std::vector<std::string>>& synonyms() {
-  static const std::vector<std::vector<std::string>> kRows{
-      {"recharge", "charge", "charger", "refuel", "battery"},
-      {"up", "north", "upward", "upwards"},
-      {"down", "south", "downward", "downwards"},
-      {"left", "west", "leftward", "leftwards"},
-      {"right", "east", "rightward", "rightwards"},
-      {"pickup", "pick", "collect", "grab", "fetch", "load", "lift"},
-      {"dropoff", "drop", "deliver", "delivery", "unload", "put", "drop-off", "bring"},
-      {"exit", "leave", "finish"},
-      {"disinfect", "disinfection", "clean", "sanitise", "sanitize"},
-      {"wait", "stay", "pause"}};
-  return kRows;
+// Words of a name that say nothing by themselves.
+bool adds_nothing(const std::string& word) {
+  using enum Meaning;
+  return (meanings_of(word) & one_of(kFiller, kAux, kWhen, kWhere, kWhy, kWhat, kWhich, kWhether, kIf, kOr, kTo)) != 0;
 }
 
 }  // namespace
@@ -90,7 +45,7 @@ Lexicon::Lexicon(const Domain& domain) : domain_{domain} {
     add_words(domain.wording(k).do_one, k);
     for (const auto* text : {&domain.wording(k).one, &domain.wording(k).do_one}) {
       const auto words = plain_words(*text);
-      const bool is_verb = text != &domain.wording(k).one || (!words.empty() && ends_with(words.front(), "ing"));
+      const bool is_verb = text != &domain.wording(k).one || (!words.empty() && words.front().ends_with("ing"));
       if (!words.empty() && is_verb && stem(domain.feature_names()[k]) != stem(words.front())) {
         verbs_.insert(stem(words.front()));
       }
@@ -110,7 +65,7 @@ void Lexicon::add_things(std::size_t feature) {
 
 void Lexicon::add_words(const std::string& text, std::size_t feature) {
   for (const auto& word : plain_words(text)) {
-    if (is_filler(word)) continue;
+    if (adds_nothing(word)) continue;
     // An action's name stays the action's, also where the words about a feature use it.
     auto& meanings = meanings_[stem(word)];
     const bool names_action =
@@ -243,24 +198,6 @@ std::vector<std::string> Lexicon::all_words() const {
   add(optional_things());
   if (const auto map = domain_.map()) add(map->item_names());
   return words;
-}
-
-void fail_unknown(const Lexicon& lexicon, const std::string& question, const std::string& word, const Place& place,
-                  const std::vector<std::string>& candidates) {
-  constexpr std::size_t kNearest = 3;
-  auto left = candidates;
-  std::vector<std::string> nearest;
-  for (auto next = nearest_word(word, left); !next.empty() && nearest.size() < kNearest;
-       next = nearest_word(word, left)) {
-    if (std::find(nearest.begin(), nearest.end(), next) == nearest.end()) nearest.push_back(next);
-    std::erase(left, next);
-  }
-  std::string choice;
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    choice += (i == 0 ? "'" : i + 1 == nearest.size() ? " or '" : ", '") + nearest[i] + "'";
-  }
-  fail(question, place, "E1103", "kith does not know the word '" + word + "'",
-       nearest.empty() ? "it knows " + listed(lexicon.happening_names()) : "did you mean " + choice + "?");
 }
 
 std::optional<std::string> Lexicon::optional_thing(const std::string& word) const {

@@ -10,9 +10,6 @@
 
 namespace kith::detail {
 
-// The part of a word that its forms share: "recharg" of "recharges" and "recharging".
-[[nodiscard]] std::string stem(std::string word);
-
 // What people can name in one domain, in any form of the word.
 class Lexicon {
  public:
@@ -54,9 +51,5 @@ class Lexicon {
   std::set<std::string> verbs_;                            // stems: how the words of features begin
   std::vector<std::string> words_;
 };
-
-// Names the word that is not known, and the nearest of those that could stand there.
-[[noreturn]] void fail_unknown(const Lexicon& lexicon, const std::string& question, const std::string& word,
-                               const Place& place, const std::vector<std::string>& candidates);
 
 }  // namespace kith::detail

@@ -1,187 +1,237 @@
 #include "question_words.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
-
-#include "lexicon.hpp"
+#include <utility>
 
 namespace kith::detail {
 namespace {
 
-std::vector<std::string> sequence_of(const std::string& text) {
+std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::istringstream stream{text};
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(stream, part, separator);) {
+    part.erase(0, part.find_first_not_of(' '));
+    if (!part.empty()) parts.push_back(part);
+  }
+  return parts;
 }
 
-std::set<std::string> words_in(const std::string& text) {
-  const auto words = sequence_of(text);
-  return {words.begin(), words.end()};
+// "in/on time" is "in time" and "on time".
+std::vector<std::string> spelled_out(const std::string& phrase) {
+  std::vector<std::string> all{""};
+  for (const auto& word : parts_of(phrase, ' ')) {
+    std::vector<std::string> longer;
+    for (const auto& begin : all) {
+      for (const auto& form : parts_of(word, '/')) longer.push_back(begin + (begin.empty() ? "" : " ") + form);
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+constexpr std::pair<Meaning, const char*> kTable[] = {
+#define WORDS(meaning, phrases) {Meaning::meaning, phrases},
+#include "question_words.def"
+};
+
+std::vector<std::vector<std::string>> rows_of(Meaning meaning) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& row : words_that_mean(meaning)) rows.push_back(parts_of(row, '/'));
+  return rows;
 }
 
 }  // namespace
 
-bool is_filler(const std::string& word) {
-  static const std::set<std::string> kWords = words_in(
-      // articles, pronouns, auxiliaries, prepositions
-      "a an the it its he she they them his her him their this that these those you your i me my we us one ones "
-      "does do did doing done is are am be been being was were will would should could can may might shall must "
-      "has have had having there here then to of in at on from for by over through across into onto along toward "
-      "towards inside upon around via if or so as which whether about out off "
-      // questions that ask politely, or think aloud
-      "tell show explain say describe give see know wonder wondering like please thanks thank hi hello hey well ok "
-      "okay "
-      "now kith just let curious understand interested want wants wanted wish need needs possible possibly true "
-      // how and how often, which the answer tells
-      "ever sometimes always often usually normally typically generally still even also too already eventually ahead "
-      "all any some anywhere somewhere everywhere earth world's maybe perhaps much bit point next rather prefer "
-      "prefers "
-      "preferred instead sure while as during actually really quickly slowly simply possibly probably likely finally "
-      // the robot, and what it does without saying what
-      "robot robots machine vehicle agent go goes going went move moves moving moved take takes taking took make "
-      "makes making made happen happens happening happened start starts cell cells choose chooses choosing use uses "
-      "using walk walks walking drive drives driving drove travel travels travelling turn turns turning turned head "
-      "heads heading try tries trying decide decides decided deciding get gets getting got keep keeps end ends "
-      "act acts behave behaves way ways route routes direction place places spot spots square squares tile tiles area "
-      "areas field fields patch patches location locations worlds case cases situation situations circumstances "
-      "when where why what many how board");
-  return kWords.count(word) != 0;
+Meanings meanings_of(const std::string& phrase) {
+  static const auto kMeanings = [] {
+    std::map<std::string, Meanings> all;
+    for (const auto& [meaning, phrases] : kTable) {
+      if (meaning == Meaning::kSynonyms || meaning == Meaning::kForms) continue;
+      for (const auto& one : parts_of(phrases, ',')) {
+        for (const auto& form : spelled_out(one)) all[form] |= one_of(meaning);
+      }
+    }
+    return all;
+  }();
+  const auto at = kMeanings.find(phrase);
+  return at == kMeanings.end() ? 0 : at->second;
+}
+
+std::vector<std::string> words_that_mean(Meaning meaning) {
+  return parts_of(kTable[static_cast<std::size_t>(meaning)].second, ',');
+}
+
+const std::vector<std::vector<std::string>>& synonyms() {
+  static const auto kRows = rows_of(Meaning::kSynonyms);
+  return kRows;
+}
+
+std::string stem(std::string word) {
+  static const auto kForms = rows_of(Meaning::kForms);
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (word.size() > 2 && word.ends_with("'s")) word.resize(word.size() - 2);
+  const auto form = std::find_if(kForms.begin(), kForms.end(), [&](const auto& row) { return row.front() == word; });
+  if (form != kForms.end()) word = form->back();
+  constexpr std::size_t kShort = 4;
+  const auto drop = [&](std::size_t n) { word.resize(word.size() - n); };
+  if (word.size() > kShort && word.ends_with("ing")) {
+    drop(3);
+  } else if (word.size() > kShort && (word.ends_with("ies") || word.ends_with("ed"))) {
+    drop(2);
+  } else if (word.size() > 3 && word.ends_with("s")) {
+    drop(1);
+  }
+  if (word.size() > 3 && word.ends_with("e")) drop(1);
+  if (word.size() > 3 && word.back() == word[word.size() - 2]) drop(1);
+  if (word.size() > 3 && word.back() == 'y') word.back() = 'i';
+  return word;
 }
 
 bool is_contact(const std::string& stem_of_word) {
-  static const std::set<std::string> kStems = [] {
+  static const auto kStems = [] {
     std::set<std::string> stems;
-    for (const auto& word :
-         words_in("cross enter pass traverse leave drive walk run ride roll visit reach come climb "
-                  "fall stop step touch disturb meet approach travel stand land halt stay steer climb")) {
-      stems.insert(stem(word));
-    }
+    for (const auto& word : words_that_mean(Meaning::kContact)) stems.insert(stem(word));
     return stems;
   }();
   return kStems.count(stem_of_word) != 0;
 }
 
-bool denies(const std::string& word) {
-  static const std::set<std::string> kWords = words_in(
-      "not no never without cannot instead than avoid avoids avoiding avoided around bypass bypasses bypassing skip "
-      "skips skipping past away refuse refuses ignore ignores ignoring clear nowhere dodge dodges evade evades");
-  return kWords.count(word) != 0 || (word.size() > 3 && word.ends_with("n't"));
-}
-
-bool is_auxiliary(const std::string& word) {
-  static const std::set<std::string> kWords =
-      words_in("does do did is are was were will would can could may might should has have");
-  return kWords.count(word) != 0;
-}
-
-bool speaks_of_value(const std::string& word) {
-  static const std::set<std::string> kWords = words_in(
-      "cost costs costing mind minds minding dislike dislikes hate hates fear fears afraid scared bad worse worst "
-      "expensive costly dangerous harmful dear price penalty bother bothers punish punished punishes cheaper cheap "
-      "detest detests unpleasant worth like likes liking love loves enjoy enjoys good better best valuable reward "
-      "rewards rewarded rewarding gain gains prefer prefers rather useful beneficial value values weight care cares "
-      "matter matters important think thinks feel feels anything something nothing outweigh outweighs");
-  return kWords.count(word) != 0;
-}
-
 namespace {
 
-struct Pattern {
-  Question::Kind kind;
-  std::vector<std::set<std::string>> words;  // alternatives at each place
-  bool removes = false;
+// Numbers that nothing here reaches count as the largest.
+std::size_t number_of(std::string digits) {
+  constexpr std::size_t kMostDigits = 9;
+  std::erase(digits, ',');
+  return digits.size() > kMostDigits ? 1'000'000'000 : static_cast<std::size_t>(std::stoul(digits));
+}
+
+// The forms of tokens, tried in this order; the first group of a pair, and the second one, are its numbers.
+struct Form {
+  Token::Kind kind;
+  std::regex form;
 };
 
-// "what|which cells|places" in words, alternatives between bars.
-Pattern pattern(Question::Kind kind, const std::string& text, bool removes = false) {
-  Pattern result{kind, {}, removes};
-  for (auto word : sequence_of(text)) {
-    std::replace(word.begin(), word.end(), '|', ' ');
-    result.words.push_back(words_in(word));
-  }
-  return result;
-}
-
-const std::vector<Pattern>& patterns() {
-  using Kind = Question::Kind;
-  static const std::string kPlaces = "place|places|cell|cells|square|squares|spot|spots|tile|tiles|location|locations";
-  static const std::string kCases =
-      "world|worlds|case|cases|situation|situations|circumstance|circumstances|condition|conditions|occasion|occasions";
-  static const std::vector<Pattern> kPatterns{
-      pattern(Kind::kWhen, "when"),
-      pattern(Kind::kWhen, "in|under|on what|which " + kCases),
-      pattern(Kind::kWhen, "in how many " + kCases),
-      pattern(Kind::kWhen, "at what|which point"),
-      pattern(Kind::kWhen, "how often|frequently|likely|probable"),
-      pattern(Kind::kWhen, "is|are there a|any|some " + kCases + " where|in|when"),
-      pattern(Kind::kWhen, "is it possible|likely"),
-      pattern(Kind::kWhen, "what makes|causes|leads"),
-      pattern(Kind::kWhen, "what is|are the chance|chances|odds|probability"),
-      pattern(Kind::kWhen, "what the chance|chances|odds|probability"),
-      pattern(Kind::kWhen, "wonder|wondering|know|tell|see|say|ask if|whether"),
-      pattern(Kind::kWhen, "tell me|us if|whether"),
-      pattern(Kind::kWhen, "whether"),
-      pattern(Kind::kWhere, "where"),
-      pattern(Kind::kWhere, "at|on|in|over|through what|which " + kPlaces),
-      pattern(Kind::kWhere, "what|which " + kPlaces),
-      pattern(Kind::kWhy, "why"),
-      pattern(Kind::kWhy, "how come"),
-      pattern(Kind::kWhy, "what is the reason|point|purpose|idea"),
-      pattern(Kind::kWhy, "what the reason|point|purpose|idea"),
-      pattern(Kind::kWhy, "what reason"),
-      pattern(Kind::kWhy, "for what|which reason|purpose"),
-      pattern(Kind::kWhy, "reason|reasons"),
-      pattern(Kind::kWhatIf, "what if"),
-      pattern(Kind::kWhatIf, "what changes|happens|differs if|when|with|in|during|at"),
-      pattern(Kind::kWhatIf, "what would|will change|happen|differ if|when|with"),
-      pattern(Kind::kWhatIf, "what would|will it do if|when|with"),
-      pattern(Kind::kWhatIf, "what does it do if|when"),
-      pattern(Kind::kWhatIf, "what would|will the robot do if|when|with"),
-      pattern(Kind::kWhatIf, "how would|will|does it|things change|differ|behave|act if|when|with"),
-      pattern(Kind::kWhatIf, "would|will|does anything change|differ if|when|with"),
-      pattern(Kind::kWhatIf, "what difference does|do|would|will", true),
-      pattern(Kind::kWhatIf, "if"),
-      pattern(Kind::kWhatIf, "suppose|supposing|imagine|assume|assuming"),
-      pattern(Kind::kWhat, "what"),
-      pattern(Kind::kWhat, "how does|would|will it|he|she get|go|drive|walk|move|travel|behave|act"),
-      pattern(Kind::kWhat, "how does|would|will the robot get|go|drive|walk|move|travel|behave|act"),
-      pattern(Kind::kWhat, "which way|direction|action|step|move|route|path|turn"),
-      pattern(Kind::kWhether, "which is|one|costs|of"),
-      pattern(Kind::kHowMuch, "how much"),
-      pattern(Kind::kHowMuch, "how many"),
-      pattern(Kind::kHowMuch,
-              "how bad|good|expensive|costly|valuable|important|dangerous|harmful|high|strongly|strong|"
-              "large|big|useful|terrible|unpleasant"),
-      pattern(Kind::kHowMuch, "how does|would it|he|she feel|think|value"),
-      pattern(Kind::kHowMuch, "how does|would the robot feel|think|value"),
+const std::vector<Form>& forms() {
+  static const std::vector<Form> kForms{
+      {Token::Kind::kQuoted, std::regex{R"("([^"]+)\"|'([^']+)')"}},
+      {Token::Kind::kSign, std::regex{R"(-\d+(\.\d+)?)"}},
+      {Token::Kind::kNumber, std::regex{R"(\d{1,3}(,\d{3})+(?![\d,]))"}},
+      {Token::Kind::kSign, std::regex{R"(\d+\.\d+,\d+|\d+ *, *\d+\.\d+|\d+(\.\d+){2,}|\d+ *, *\d+( *, *\d+)+)"}},
+      {Token::Kind::kCell, std::regex{R"((\d+)[ ,]*,[ ,]*(\d+))"}},
+      {Token::Kind::kFraction, std::regex{R"((\d*)\.(\d{1,3})(?!\d)|(\d+)/(\d{1,3})(?!\d))"}},
+      {Token::Kind::kNumber, std::regex{R"(\d+(?![\w/]|\.\d))"}},
+      {Token::Kind::kWord, std::regex{"[A-Za-z\x80-\xFF][A-Za-z0-9_'\x80-\xFF-]*"}},
+      {Token::Kind::kComma, std::regex{","}},
+      {Token::Kind::kSign, std::regex{R"(\d[\w./]*|[^\s,?.!;:()'"])"}},
   };
-  return kPatterns;
+  return kForms;
 }
 
-bool fits(const Pattern& pattern, const std::vector<Token>& tokens, std::size_t begin) {
-  if (begin + pattern.words.size() > tokens.size()) return false;
-  for (std::size_t i = 0; i < pattern.words.size(); ++i) {
-    const auto& token = tokens[begin + i];
-    if (token.kind != Token::Kind::kWord || pattern.words[i].count(token.text) == 0) return false;
+// In lower case, apostrophes as on keyboards, and without the "'s" of "what's" and "robot's".
+std::string spelled(const std::string& text) {
+  std::string word;
+  for (const char c : text) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (auto at = word.find("\xE2\x80\x99"); at != std::string::npos; at = word.find("\xE2\x80\x99"))
+    word.replace(at, 3, "'");
+  if (word.size() > 2 && word.ends_with("'s")) word.resize(word.size() - 2);
+  return word;
+}
+
+Token token_of(Token::Kind kind, const std::cmatch& found, std::size_t begin) {
+  const auto group = [&](std::size_t i) { return found[i].matched ? found[i].str() : std::string{}; };
+  Token token{kind, spelled(found.str()), 0, 0, {begin + 1, static_cast<std::size_t>(found.length())}};
+  if (kind == Token::Kind::kQuoted) {
+    token.text = group(1) + group(2);
+    token.place = {begin + 2, token.text.size()};
+  } else if (kind == Token::Kind::kNumber) {
+    token.number = number_of(token.text);
+  } else if (kind == Token::Kind::kCell) {
+    token.number = number_of(group(1));
+    token.row = number_of(group(2));
+  } else if (kind == Token::Kind::kFraction) {
+    const bool is_decimal = found[2].matched;
+    token.row = 1;
+    for (std::size_t i = 0; is_decimal && i < group(2).size(); ++i) token.row *= 10;
+    token.number = is_decimal ? number_of("0" + group(1) + group(2)) : number_of(group(3));
+    if (!is_decimal) token.row = number_of(group(4));
+    if (token.row == 0) token.kind = Token::Kind::kSign;
   }
-  return true;
+  return token;
 }
 
 }  // namespace
 
-std::optional<Opening> find_opening(const std::vector<Token>& tokens) {
-  for (std::size_t begin = 0; begin < tokens.size(); ++begin) {
-    const Pattern* best = nullptr;
-    for (const auto& pattern : patterns()) {
-      if (fits(pattern, tokens, begin) && (best == nullptr || pattern.words.size() > best->words.size()))
-        best = &pattern;
+std::vector<Token> tokens_of(const std::string& text) {
+  std::vector<Token> tokens;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto begin = i++;
+    for (const auto& [kind, form] : forms()) {
+      std::cmatch found;
+      if (!std::regex_search(text.c_str() + begin, found, form, std::regex_constants::match_continuous)) continue;
+      const bool is_in_cell = begin > 0 && text[begin - 1] == '(';
+      if (kind == Token::Kind::kNumber && is_in_cell && found.str().find(',') != std::string::npos) continue;
+      tokens.push_back(token_of(kind, found, begin));
+      auto& word = tokens.back().text;
+      const bool denies = kind == Token::Kind::kWord && word.size() > 3 && (word.ends_with("n't") || word == "cannot");
+      if (denies) {  // "doesn't" is "does not"
+        word.resize(word.size() - 3);
+        const auto place = tokens.back().place;
+        tokens.push_back({Token::Kind::kWord, "not", 0, 0, place});
+      }
+      i = begin + static_cast<std::size_t>(found.length());
+      break;
     }
-    if (best != nullptr) return Opening{best->kind, begin, begin + best->words.size(), best->removes};
   }
-  return std::nullopt;
+  return tokens;
+}
+
+std::vector<Token> with_phrases(const std::vector<Token>& tokens) {
+  std::vector<Token> joined;
+  for (std::size_t i = 0; i < tokens.size();) {
+    auto best = tokens[i];
+    std::size_t length = 1;
+    best.meanings = best.kind == Token::Kind::kWord ? meanings_of(best.text) : 0;
+    auto phrase = tokens[i].text;
+    const auto is_word = [&](std::size_t at) { return at < tokens.size() && tokens[at].kind == Token::Kind::kWord; };
+    for (auto end = i + 1; is_word(i) && is_word(end) && end < i + kLongestPhrase; ++end) {
+      phrase += " " + tokens[end].text;
+      const auto meanings = meanings_of(phrase);
+      if (meanings == 0) continue;
+      const auto& last = tokens[end].place;
+      best = {Token::Kind::kWord,
+              phrase,
+              0,
+              0,
+              {best.place.column, last.column + last.length - best.place.column},
+              meanings};
+      length = end + 1 - i;
+    }
+    joined.push_back(best);
+    i += length;
+  }
+  return joined;
+}
+
+std::vector<std::string> texts_of(const std::vector<Token>& tokens) {
+  std::vector<std::string> texts;
+  for (const auto& token : tokens) texts.push_back(token.text);
+  return texts;
+}
+
+std::string phrase(const std::vector<Token>& tokens) {
+  std::string text;
+  for (const auto& token : tokens) text += (text.empty() ? "" : " ") + token.text;
+  return text;
+}
+
+Place place_of(const std::vector<Token>& tokens) {
+  const auto &first = tokens.front().place, &last = tokens.back().place;
+  return {first.column, last.column + last.length - first.column};
 }
 
 }  // namespace kith::detail

@@ -25,7 +25,30 @@ std::string Scene::context() const {
   std::string text = spot();
   if (question_.carried) text += " carrying " + map_->item_names()[*question_.carried];
   if (question_.world) text += " in " + name_of(*question_.world);
+  return text + condition();
+}
+
+std::string Scene::condition() const {
+  std::string text;
+  for (const auto& [present, thing, cell, place] : question_.conditions) {
+    text += (text.empty() ? "" : " and") + std::string{present ? " with the " : " without the "} + thing +
+            (cell ? " at " + cell_text(*map_, *cell) : "");
+  }
   return text;
+}
+
+bool Scene::is_asked_about(MdpIndex world) const {
+  const auto groups = domain_.optional_groups();
+  const auto present = domain_.present_things(world);
+  return std::ranges::all_of(question_.conditions, [&](const WorldCondition& condition) {
+    bool is_there = false;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const bool is_meant = groups[g].name == condition.thing &&
+                            (!condition.cell || std::ranges::count(groups[g].cells, *condition.cell) > 0);
+      is_there = is_there || (present[g] && is_meant);
+    }
+    return is_there == condition.present;
+  });
 }
 
 bool Scene::was_seen(StartIndex demo) const {
@@ -38,6 +61,8 @@ bool Scene::was_seen(StartIndex demo) const {
 }
 
 std::optional<StartIndex> Scene::start_in(MdpIndex world) const {
+  const bool changes_worlds = question_.kind == Question::Kind::kWhatIf;
+  if (!changes_worlds && !is_asked_about(world)) return std::nullopt;
   const auto start = place_in(world);
   return start && was_seen(*start) ? start : std::nullopt;
 }
@@ -83,6 +108,9 @@ std::optional<StartIndex> Scene::state_called(MdpIndex world, const std::string&
 StartIndex Scene::needed_start(MdpIndex world) const {
   const auto start = start_in(world);
   if (start) return *start;
+  const bool changes_worlds = question_.kind == Question::Kind::kWhatIf;
+  if (!changes_worlds && !is_asked_about(world))
+    fail(text_, question_.conditions.front().place, "E1108", "no world is like that", Remedy::kShowMap);
   if (place_in(world)) {
     fail(text_, question_.spot, "E1104",
          "nobody knows: the robot was not seen on all of its way from there in " + name_of(world) +

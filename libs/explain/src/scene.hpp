@@ -19,6 +19,10 @@ class Scene {
   [[nodiscard]] std::string name_of(const Happening& happening) const;
   [[nodiscard]] const std::string& action(ActionIndex a) const { return domain_.action_names()[a.value()]; }
   [[nodiscard]] std::string context() const;
+  // " without the charger", where the question is about such worlds only.
+  [[nodiscard]] std::string condition() const;
+  // Whether a world has and lacks what the question says of the worlds that it is about.
+  [[nodiscard]] bool is_asked_about(MdpIndex world) const;
   // " at (2,1)", " in state 'on the ice'", or nothing.
   [[nodiscard]] std::string spot() const;
   // Where the question is about, in one world: the map's start, or the robot at the cell and all things as at first;

@@ -82,6 +82,23 @@ TEST(Asked, InOwnWordsNineOfTenAreAnsweredAndNoneWrongly) {
   EXPECT_GE(10 * answered, 9 * all.size()) << answered << " of " << all.size();
 }
 
+// Wherever a word stands that nobody knows, a question is refused: every word is read.
+TEST(Asked, WithAnUnknownWordAnywhereAreRefused) {
+  std::size_t asked = 0;
+  for (const auto& one : all_asked()) {
+    if (one.may_be_refused) continue;
+    for (auto at = one.question.find(' ');; at = one.question.find(' ', at + 1)) {
+      std::string why;
+      const auto other =
+          one.question.substr(0, at) + " zebra" + (at == std::string::npos ? "" : one.question.substr(at));
+      EXPECT_FALSE(understood(one.domain, other, why)) << other;
+      ++asked;
+      if (at == std::string::npos) break;
+    }
+  }
+  EXPECT_GE(asked, 1000u);
+}
+
 // All sentences of a lesson.
 std::set<std::string> taught(const Atlas& atlas) {
   const auto& domain = atlas.domain();

@@ -9,6 +9,7 @@
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/contrast.hpp"
+#include "kith/explain/words.hpp"
 #include "lake.hpp"
 
 namespace kith {
@@ -413,7 +414,44 @@ TEST(AskWhether, ReadsEveryNumberAndSign) {
 
 TEST(AskWhatIf, ReadsWhatIsDeniedBehindIt) {
   EXPECT_EQ(ask("what if the charger was not there?").question, ask("what if there is no charger?").question);
-  EXPECT_EQ(ask("if there is rubble at (4,2), does it recharge?").question, ask("what if rubble at (4,2)?").question);
+  EXPECT_EQ(ask("if there is rubble at (4,2), what would it do?").question, ask("what if rubble at (4,2)?").question);
+  EXPECT_EQ(ask("what if the charger is not gone?").question, ask("what if there is a charger?").question);
+}
+
+// A condition leaves the question what it is: it is about fewer worlds.
+TEST(AskWhen, IsAboutTheWorldsThatAConditionLeaves) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto& domain = atlas.domain();
+  const auto groups = domain.optional_groups();
+  for (const std::string thing : {"charger", "rubble"}) {
+    for (const bool present : {false, true}) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        std::size_t of = 0, yes = 0;
+        for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+          bool is_there = false;
+          for (std::size_t g = 0; g < groups.size(); ++g)
+            is_there = is_there || (groups[g].name == thing && domain.present_things(m)[g]);
+          if (is_there != present) continue;
+          ++of;
+          yes += atlas.feature_counts(atlas.index({m, domain.initial_state(m)}))[k] != 0 ? 1U : 0U;
+        }
+        const auto condition = std::string{"there is "} + (present ? "a " : "no ") + thing;
+        const auto reply = ask("does it " + doing(domain.wording(k), 1, false) + " if " + condition + "?");
+        EXPECT_THAT(reply.text, HasSubstr(" in " + std::to_string(yes) + " of " + std::to_string(of) + " worlds with"));
+        EXPECT_EQ(ask("if " + condition + ", does it " + doing(domain.wording(k), 1, false)).text, reply.text);
+        for (const auto& example : reply.examples) {
+          const auto world = domain.present_things(atlas.id(example.demo).mdp);
+          bool is_there = false;
+          for (std::size_t g = 0; g < groups.size(); ++g) is_there = is_there || (groups[g].name == thing && world[g]);
+          EXPECT_EQ(is_there, present) << reply.question << " " << example.text;
+        }
+      }
+    }
+  }
+  EXPECT_THAT(complaint("when does it recharge in world 3 if there is no rubble"), HasSubstr("E1106 49: "));
+  EXPECT_THAT(complaint("does it cross rubble if there is no purple"), HasSubstr("'purple'"));
+  EXPECT_THAT(complaint("does it cross rubble if"), HasSubstr("E1106"));
+  EXPECT_THAT(complaint("why does it recharge if there is no rubble"), HasSubstr("'if'"));
 }
 
 TEST(AskWhat, CountsStepsOfAWorld) {

@@ -26,8 +26,8 @@ struct Reply {
 
 /// Answers a question about the robot's behaviour with demonstrations that show it.
 ///
-///   when [not] HAPPENING [at CELL] [carrying ITEM] [in world N]   worlds that differ in little
-///   where [not] HAPPENING [in world N]                       cells
+///   when [not] HAPPENING [if [no] THING] [at CELL] [carrying ITEM] [in world N]   worlds that differ in little
+///   where [not] HAPPENING [if [no] THING] [in world N]       cells
 ///   why [HAPPENING] [not HAPPENING] [at CELL] [...]          the comparison that decides
 ///   what if [no] THING [at CELL] [and ...] [in world N]      what changes
 ///   what at CELL [carrying ITEM] [in world N]                what it does there
