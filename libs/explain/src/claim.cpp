@@ -117,9 +117,9 @@ class ClaimReader {
     if (amounts.sign != 0) return amounts.sign;
     bool gains = false, costs = false;
     for (std::size_t k = 0; k < amounts.counts.size(); ++k) {
-      const auto value = amounts.counts[k] * domain_.weights().integer[k];
-      gains = gains || value > 0;
-      costs = costs || value < 0;
+      const auto count = amounts.counts[k], weight = domain_.weights().integer[k];
+      if (count == 0 || weight == 0) continue;
+      ((count > 0) == (weight > 0) ? gains : costs) = true;
     }
     return gains == costs ? otherwise : gains ? 1 : -1;
   }
@@ -150,7 +150,11 @@ class ClaimReader {
   // Adds what counts with a sign of its own.
   void add(Amounts& total, const Amounts& more, int sign) const {
     if (sign == 0) unclear();
+    constexpr std::int64_t kMostParts = 100'000;
     const auto common = std::lcm(total.parts, more.parts);
+    if (common > kMostParts)
+      reader_.fail_at(reader_.whole(), "E1103", "these fractions have no small common denominator",
+                      "write smaller ones");
     const auto own = total.sign == 0 ? 1 : total.sign;
     for (std::size_t k = 0; k < total.counts.size(); ++k)
       total.counts[k] = own * total.counts[k] * (common / total.parts) + sign * more.counts[k] * (common / more.parts);
@@ -160,20 +164,19 @@ class ClaimReader {
 
   Amounts things() {
     auto all = thing();
-    for (auto begin = reader_.at(); takes(kAnd) || is_in_list(); begin = reader_.at()) {
-      if (reader_.sees(one_of(kCostOf, kGainOf))) {
-        reader_.go_to(begin);
-        break;
+    for (auto begin = reader_.at();; begin = reader_.at()) {
+      if (takes(kAnd) && !reader_.sees(one_of(kCostOf, kGainOf))) {
+        add(all, thing(), 1);
+        continue;
       }
-      add(all, thing(), 1);
+      reader_.go_to(begin);
+      const bool is_in_list = begin < reader_.tokens().size() && reader_.tokens()[begin].kind == Token::Kind::kComma;
+      const auto next = is_in_list ? take_printed() : std::nullopt;  // "a, b and c"
+      if (!next) break;
+      add(all, *next, 1);
     }
     all.sign = 0;
     return all;
-  }
-  // "2 steps, rubble and smoke": at a comma with a thing behind it.
-  [[nodiscard]] bool is_in_list() const {
-    return reader_.at() < reader_.tokens().size() && reader_.tokens()[reader_.at()].kind == Token::Kind::kComma &&
-           reader_.next() < reader_.tokens().size() && reader_.tokens()[reader_.next()].kind == Token::Kind::kName;
   }
 
   Amounts thing() {

@@ -408,6 +408,11 @@ TEST(AskWhether, ReadsEveryNumberAndSign) {
                                "how many chargers are there?",
                                "what if there is less rubble?",
                                "what if some rubble is gone?",
+                               "does it recharge and?",
+                               "what if the rubble changes?",
+                               "why does it cross rubble if there is no charger?",
+                               "is rubble worse than 1/997 steps and 1/991 steps and 1/983 steps and 1/977 steps?",
+                               "would it rather go up or left at (4,3)?",
                                "does it hardly recharge?"})
     EXPECT_THAT(complaint(question), ::testing::StartsWith("E11")) << question;
 }
