@@ -126,7 +126,7 @@ const TomlValue* TomlReader::value(std::string_view key, Presence presence) {
   know(key);
   const TomlValue* value = table_.find(key);
   if (value == nullptr && presence == Presence::kRequired) {
-    report_.error("E0109", place_, "key " + quoted(key) + " is missing in " + name_);
+    report_.error("E0109", place_, missing(key));
   }
   return value;
 }
@@ -182,10 +182,13 @@ std::optional<TomlReader> TomlReader::table(std::string_view key, Presence prese
   return TomlReader{*v->table(), v->place(), "[" + path + "]", report_};
 }
 
+std::string TomlReader::missing(std::string_view key) const { return "key " + quoted(key) + " is missing in " + name_; }
+
 void TomlReader::finish() {
   for (const TomlEntry& entry : table_.entries()) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     report_.error("E0107", entry.place, "unknown key '" + entry.key + "' in " + name_, suggestion(entry.key, known_));
+    report_.withdraw("E0109", place_, missing(nearest_word(entry.key, known_)));  // the same mistake
   }
 }
 

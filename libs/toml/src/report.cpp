@@ -29,6 +29,12 @@ void TomlReport::warning(std::string id, const TomlPlace& place, std::string mes
   add({.severity = Severity::kWarning}, place, std::move(id), std::move(message), std::move(hint));
 }
 
+void TomlReport::withdraw(std::string_view id, const TomlPlace& place, std::string_view message) {
+  num_errors_ -= std::erase_if(entries_, [&](const Entry& entry) {
+    return entry.diagnostic.id == id && entry.diagnostic.message == message && entry.place == place;
+  });
+}
+
 std::vector<Diagnostic> TomlReport::diagnostics() const {
   std::vector<Entry> sorted = entries_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Entry& a, const Entry& b) {

@@ -141,5 +141,22 @@ TEST(TomlReport, NamesTheSourceOfAnAssignedValue) {
   EXPECT_EQ(report.diagnostics()[0].column, 6u);
 }
 
+// A required key that is misspelt is one mistake.
+TEST(TomlReader, DoesNotMissAKeyThatIsMisspelt) {
+  const auto parsing = parse_toml("[a]\nrewards = 1\n[b]\nrewards = 1\nprior = 2\n", "x.toml");
+  TomlReport report{*parsing.document};
+  for (const char* key : {"a", "b"}) {
+    const auto* table = parsing.document->root.find(key);
+    TomlReader reader{*table->table(), table->place(), "[t]", report};
+    EXPECT_EQ(reader.value("reward", Presence::kRequired), nullptr);
+    EXPECT_EQ(reader.value("name", Presence::kRequired), nullptr);
+    if (*key == 'a') reader.finish();
+  }
+  std::string ids;
+  for (const auto& one : report.diagnostics()) ids += one.id + " ";
+  EXPECT_EQ(ids, "E0109 E0107 E0109 E0109 ");
+  EXPECT_EQ(report.num_errors(), 4u);
+}
+
 }  // namespace
 }  // namespace kith

@@ -26,6 +26,8 @@ class TomlReport {
   /// An error of the kind "well-formed, but nothing can be done with it".
   void infeasible(std::string id, const TomlPlace& place, std::string message, std::string hint = {});
   void warning(std::string id, const TomlPlace& place, std::string message, std::string hint = {});
+  /// Takes an error back, of which another one says more.
+  void withdraw(std::string_view id, const TomlPlace& place, std::string_view message);
 
   [[nodiscard]] bool has_errors() const noexcept { return num_errors_ > 0; }
   /// Errors so far, also those beyond the cap.
@@ -116,6 +118,8 @@ class TomlReader {
   [[nodiscard]] TomlReport& report() const noexcept { return report_; }
 
  private:
+  [[nodiscard]] std::string missing(std::string_view key) const;
+
   const TomlTable& table_;
   TomlPlace place_;
   std::string name_;
