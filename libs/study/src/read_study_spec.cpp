@@ -42,13 +42,15 @@ class SpecReader {
     read_top();
     read_learner_types();
     read_strategy_tables();
+    const auto num_errors = report_.num_errors();
     if (auto design = root_.table("design", Presence::kRequired)) read_design(*design);
+    const bool is_design_good = report_.num_errors() == num_errors;  // else every contrast of it would be wrong, too
     if (auto teacher = root_.table("teacher", Presence::kOptional)) read_teacher(*teacher);
     if (auto stop = root_.table("stop", Presence::kOptional)) read_stop(*stop);
     if (auto pace = root_.table("pace", Presence::kOptional)) read_all(*pace, pace_keys());
     if (auto record = root_.table("record", Presence::kOptional)) read_all(*record, record_keys());
     if (auto group = root_.table("group", Presence::kOptional)) read_group_table(*group);
-    if (const auto* contrasts = root_.array("contrast", Presence::kOptional)) {
+    if (const auto* contrasts = root_.array("contrast", Presence::kOptional); contrasts != nullptr && is_design_good) {
       spec_.contrasts = read_contrasts(*contrasts, spec_, report_);
     }
     root_.finish();

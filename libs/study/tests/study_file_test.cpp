@@ -70,6 +70,19 @@ TEST(StudyFile, RefusesContrastsThatCompareNothing) {
   EXPECT_THAT(ids_of("primary = true\nof = [\"common\"]\nagainst = [\"baseline\"]\n"), ElementsAre("E0420"));
 }
 
+// What a contrast compares cannot be known then.
+TEST(StudyFile, SaysOfADesignWithAMistakeOnlyTheMistake) {
+  const std::string contrast =
+      "[[contrast]]\nname = \"x\"\nof = [\"common\"]\nagainst = [\"baseline\"]\n"
+      "[[contrast]]\nname = \"y\"\nfactor = \"composition\"\nweights = { NN = 1, N = -1 }\n";
+  const auto ids_with = [&](const std::string& old, const std::string& wrong) {
+    std::string text = kStudy;
+    return ids(parse(text.replace(text.find(old), old.size(), wrong) + contrast));
+  };
+  EXPECT_THAT(ids_with("\"N\"]", "\"NX\"]"), ElementsAre("E0405"));
+  EXPECT_THAT(ids_with("\"common\"", "\"comon\""), ElementsAre("E0402"));
+}
+
 TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   const auto reading = parse(kStudy);
   ASSERT_TRUE(reading.study) << reading.diagnostics.size();
