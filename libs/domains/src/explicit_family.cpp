@@ -294,18 +294,28 @@ class MemberBuilder {
     return false;
   }
 
-  // is_start_: the states that are declared; if none is, those that others lead to and where a robot enters. A table
-  // may have rows for states in which the robot never is.
-  void find_starts() {
-    const std::size_t n = raw_.states.size();
-    std::vector<bool> is_entered(n, false);
+  // visit(state, another state that it leads to).
+  template <typename Visit>
+  void for_each_step(Visit visit) const {
     for (std::uint32_t c = 0; c < choices_.size(); ++c) {
       if (!kept_[from(c)] || !live_[from(c)] || !is_safe(c)) continue;
       for (std::uint32_t i = 0; i < choices_[c].count; ++i) {
         const RawTransition& one = raw_.transitions[choices_[c].first + i];
-        if (one.next != one.state) is_entered[one.next] = true;
+        if (one.next != one.state) visit(one.state, one.next);
       }
     }
+  }
+
+  // is_start_: the states that are declared; if none is, those that others lead to, where a robot enters, and those
+  // without which it would never come to one of these. A table may have rows for states in which the robot never is.
+  void find_starts() {
+    const std::size_t n = raw_.states.size();
+    std::vector<bool> is_entered(n, false), is_met(n, false);  // from any state; from one that is entered itself
+    for_each_step([&](std::uint32_t, std::uint32_t next) { is_entered[next] = true; });
+    for_each_step([&](std::uint32_t s, std::uint32_t next) { is_met[next] = is_met[next] || is_entered[s]; });
+    for_each_step([&](std::uint32_t s, std::uint32_t next) {
+      if (!is_met[next] && !state(next).terminal) is_entered[s] = true;
+    });
 
     is_start_.assign(n, false);
     bool has_any = false;
@@ -332,7 +342,7 @@ class MemberBuilder {
                     "no other state" + in_mdp() + " leads to " + std::to_string(apart.size()) +
                         (apart.size() == 1 ? " state" : " states") + ", so nothing is asked or shown from there: " +
                         named + (apart.size() > kMostNamed ? ", ..." : ""),
-                    "mark as start or initial where the robot can begin");
+                    "mark where the robot can begin: start (a column or label), starts (JSON), or initial");
   }
 
   // Numbers the states: live ones first, then terminal ones, each in the order of the file.

@@ -313,6 +313,15 @@ TEST(ModelErrors, NameStatesThatNoOtherStateLeadsTo) {
   texts["states.csv"] = "state,terminal,start\nbank,false,true\nice,false,true\nreef,false,true\nshore,true,false\n";
   EXPECT_EQ(sound_model(texts).starts(kFirst).size(), 3u);
 
+  // Nobody would come to the ice if it did not begin at the bank; the reef only leads where others lead, too.
+  texts["states.csv"] = "state,terminal\nbank,false\nice,false\nreef,false\nshore,true\n";
+  texts["transitions.csv"] =
+      "state,action,next,slip,step\nbank,go,ice,0,1\nbank,creep,ice,1,1\nice,go,shore,0,1\nice,creep,shore,1,1\n";
+  EXPECT_EQ(sound_model(edited(texts, "states.csv", "reef,false\n", "")).starts(kFirst).size(), 2u);
+  texts["transitions.csv"] += "reef,go,shore,0,1\nreef,creep,shore,1,1\n";
+  EXPECT_EQ(read_model_texts(texts).diagnostics.at(0).id, "W0211");
+  EXPECT_EQ(read_model_texts(texts).domain->starts(kFirst).size(), 2u);
+
   // Where nothing else is left, they are all there is.
   texts["states.csv"] = "state,terminal\nbank,false\nshore,true\n";
   texts["transitions.csv"] = "state,action,next,slip,step\nbank,go,shore,0,1\nbank,creep,shore,1,1\n";
