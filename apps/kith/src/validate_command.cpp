@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "command.hpp"
 #include "input.hpp"
@@ -30,13 +31,18 @@ struct Verdict {
   std::vector<Diagnostic> diagnostics;
 };
 
-Verdict check_domain(const InputText& input) {
-  const auto reading = parse_domain(input.text, input.name, {}, {.folder = input.folder, .known = input.files});
+Verdict check_domain(const InputText& input, bool has_reward) {
+  const DomainFiles files{.folder = input.folder, .known = input.files};
+  auto reading = parse_domain(input.text, input.name, {}, files);
+  if (!reading.domain && !has_reward) {
+    if (auto open = parse_unweighed_domain(input.text, input.name, files); open.domain) reading = std::move(open);
+  }
   Verdict verdict{"domain", "", "", reading.diagnostics};
   if (reading.domain) {
     verdict.id = reading.domain->id();
-    verdict.content = fmt::format("{}, {}", counted(reading.domain->num_mdps(), "world"),
-                                  counted(reading.domain->num_starts(), "start state"));
+    verdict.content = fmt::format(
+        "{}, {}{}", counted(reading.domain->num_mdps(), "world"), counted(reading.domain->num_starts(), "start state"),
+        reading.domain->weights().raw.empty() ? "; without [reward], only for kith infer" : "");
   }
   return verdict;
 }
@@ -77,7 +83,7 @@ Verdict check(const std::string& file, bool live) {
   if (!parsing.document) return {"", "", "", parsing.diagnostics};
   const auto* schema = parsing.document->root.find("schema");
   const std::string name = schema != nullptr && schema->string() != nullptr ? *schema->string() : "";
-  if (name.rfind("kith.domain/", 0) == 0) return check_domain(input);
+  if (name.rfind("kith.domain/", 0) == 0) return check_domain(input, parsing.document->root.find("reward") != nullptr);
   if (name.rfind("kith.study/", 0) == 0) return check_study(input, live);
   Diagnostic unknown;
   unknown.id = "E0106";

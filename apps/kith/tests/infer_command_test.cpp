@@ -1,6 +1,9 @@
 // kith infer: weights for a robot whose reward nobody wrote down.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "run_kith.hpp"
 
 namespace kith::testing {
@@ -27,6 +30,21 @@ TEST(InferCommand, WritesADomainThatEverythingElseTeaches) {
   const auto again = run_kith({"infer", kDomain, "--policy", kPolicy, "-o", file});
   EXPECT_EQ(again.code, 2) << "the file is there";
   EXPECT_EQ(run_kith({"infer", file, "--policy", kPolicy, "-o", file, "--yes"}).code, 0) << "weights are replaced";
+}
+
+TEST(InferCommand, TakesADomainWithoutARewardAsValidateSays) {
+  std::ifstream file{std::string{KITH_SOURCE_DIR} + "/domains/item_delivery.toml"};
+  std::string text{std::istreambuf_iterator<char>{file}, {}};
+  const auto at = text.find("[reward]");
+  ASSERT_NE(at, std::string::npos);
+  const auto misspelt = run_kith({"validate", "-"}, {.input = std::string{text}.insert(at + 7, "s")});
+  EXPECT_EQ(misspelt.code, 3);
+  EXPECT_THAT(misspelt.err, AllOf(HasSubstr("did you mean 'reward'?"), Not(HasSubstr("E0109"))));
+  text.erase(at, text.find('[', at + 1) - at);
+  const auto open = run_kith({"validate", "-"}, {.input = text});
+  EXPECT_EQ(open.code, 0) << open.err;
+  EXPECT_THAT(open.out, HasSubstr("only for kith infer"));
+  EXPECT_EQ(run_kith({"inspect", "-"}, {.input = text}).code, 3);
 }
 
 TEST(InferCommand, SaysAllAsJson) {
