@@ -57,28 +57,9 @@ std::string state_of(const RoomSummary& room) {
   return room.has_started ? "running" : "lobby";
 }
 
-// Groups that have had all lessons that the study allows: whether the last one is over, only the rooms themselves tell.
-void find_taught(EventFile& file, std::vector<RoomSummary>& rooms) {
-  std::optional<SessionStudy> study;
-  std::optional<TeachingCache> cache;
-  for (auto& room : rooms) {
-    if (!room.has_started || room.is_taught || !room.ended.empty()) continue;
-    if (!study) {
-      study = restore_session_study(file.identity().inputs);
-      cache.emplace(study->study->atlas);
-    }
-    if (room.lessons < study->study->spec.teaching.max_periods) continue;
-    static_cast<void>(
-        replay_room(file, find_room(file, room.id), study->study, *cache, [&](const Room& now, const RoomEvent&) {
-          room.is_taught = now.stage() == RoomStage::kQuestions || now.stage() == RoomStage::kEnded;
-        }));
-  }
-}
-
 int list(const SessionOptions& options, Console& console) {
   auto file = EventFile::read(options.folder);
-  auto rooms = list_rooms(file);
-  find_taught(file, rooms);
+  const auto rooms = list_rooms(file);
   if (rooms.empty()) {
     console.print("no rooms\n");
     return 0;

@@ -47,6 +47,7 @@ TEST(LiveService, TeachesThreePeopleFromTheirLinksToTheirCodes) {
   ASSERT_EQ(rooms.size(), 1u);
   EXPECT_EQ(rooms[0].joined, 3u);
   EXPECT_GT(rooms[0].answers, 0u);
+  EXPECT_TRUE(rooms[0].is_taught);
 
   TeachingCache cache{stage.study().study->atlas};
   const auto replayed = replay_room(*file, file->rooms()[0], stage.study().study, cache);

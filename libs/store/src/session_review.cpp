@@ -155,6 +155,24 @@ std::vector<StoredSeat> seats_of_person(EventFile& file, std::int64_t room, std:
   return seats;
 }
 
+// Groups that have had all lessons that the study allows: whether the last one is over, only the rooms themselves tell.
+void find_taught(EventFile& file, std::vector<RoomSummary>& rooms) {
+  std::optional<SessionStudy> study;
+  std::optional<TeachingCache> cache;
+  for (auto& room : rooms) {
+    if (!room.has_started || room.is_taught || !room.ended.empty()) continue;
+    if (!study) {
+      study = restore_session_study(file.identity().inputs);
+      cache.emplace(study->study->atlas);
+    }
+    if (room.lessons < study->study->spec.teaching.max_periods) continue;
+    static_cast<void>(
+        replay_room(file, find_room(file, room.id), study->study, *cache, [&](const Room& now, const RoomEvent&) {
+          room.is_taught = now.stage() == RoomStage::kQuestions || now.stage() == RoomStage::kEnded;
+        }));
+  }
+}
+
 }  // namespace
 
 std::set<StoredSeat> withdrawn_seats(EventFile& file) {
@@ -223,6 +241,7 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
     room.gone = static_cast<std::size_t>(
         std::count_if(gone.begin(), gone.end(), [&](const auto& one) { return one.first == room.number; }));
   }
+  find_taught(file, rooms);
   return rooms;
 }
 

@@ -34,7 +34,8 @@ struct RoomSummary {
   std::string ended{};     ///< Why, if it ended before its time.
 };
 
-/// The rooms of a session, in order, from their events alone: no lesson is chosen again.
+/// The rooms of a session, in order, from their events. Only rooms that have had all lessons that their study allows
+/// are computed again, to see whether the last one is over. @throws those of restore_session_study().
 [[nodiscard]] std::vector<RoomSummary> list_rooms(EventFile& file);
 
 /// The room with this id ("r3") or code. @throws kith::Error (kInvalidInput, E1618) if there is none.
