@@ -302,6 +302,37 @@ TEST(Room, StopsShortIsAWrongAnswerAndNoEvidence) {
   EXPECT_TRUE(play.room().view({Viewer::Role::kFacilitator, 0}, play.now())["room"]["answers"].back()["stopped_short"]);
 }
 
+// A damaged file, or a log that somebody edited, may say anything of an answer that was erased.
+TEST(Room, TakesOnlyWhatCanBeLeftOfAnErasedAnswer) {
+  Play play{live_study(), "N"};
+  play.start(1);
+  play.watch(1);
+  const auto& last = play.events().back();
+  const auto refused = [&](const Json& erased) {
+    auto room = play.room();
+    happening::Answered answer;
+    answer.erased = erased;
+    try {
+      room.apply({last.seq + 1, last.at_us, "seat:1", answer}, play.cache());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kMismatch) << erased;
+      return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(refused({{"counts", nullptr}, {"finished", false}}));
+  const Json malformed = {"x",
+                          7,
+                          Json::object(),
+                          {{"counts", nullptr}},
+                          {{"counts", {1, 0, 2}}, {"finished", 1}},
+                          {{"counts", {1, 0}}, {"finished", true}},
+                          {{"counts", {1, 0, 2, 3}}, {"finished", true}},
+                          {{"counts", {1, 0, 0.5}}, {"finished", true}},
+                          {{"counts", "102"}, {"finished", true}}};
+  for (const auto& erased : malformed) EXPECT_TRUE(refused(erased)) << erased;
+}
+
 TEST(Room, ShowsThePartThatFeedbackIsAbout) {
   Play play{live_study(), "NN"};
   play.start(2);
