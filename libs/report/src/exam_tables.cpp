@@ -6,18 +6,11 @@
 
 #include "kith/random/distributions.hpp"
 #include "kith/stats/effect_size.hpp"
+#include "kith/stats/moments.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {
 namespace {
-
-using Values = std::vector<double>;
-
-double mean_of(const Values& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 // The state of a team when so many periods were taught; its last one if it had fewer.
 const ExamPoint& state_after(const std::vector<ExamPoint>& path, std::size_t periods) {
@@ -128,7 +121,7 @@ Json exam_by_period_table(const ReportDesign& design, const RunData& data) {
 
       auto row = Json::array({design.series[series].code, period, paths.size()});
       for (const auto cost : {&ExamPoint::items, &ExamPoint::minutes, &ExamPoint::person_minutes})
-        row.push_back(number(mean_of(values(cost))));
+        row.push_back(number(mean(values(cost))));
       for (const auto outcome :
            {&ExamPoint::regret, &ExamPoint::share_right, &ExamPoint::worst_share_right, &ExamPoint::knowledge})
         add_interval(row, values(outcome));
@@ -160,8 +153,8 @@ Json efficiency_table(const RunFiles& run, const ReportDesign& design, const Run
       if (design.cells[other].composition != design.cells[c].composition || teams[other].empty()) continue;
       if (other == c) own = rivals.size();
       rivals.emplace_back(
-          mean_of(values_of(teams[other], data, [](const auto& team) { return team.items; })),
-          mean_of(values_of(teams[other], data, [&](const auto& team) { return known_at_end(team, data); })));
+          mean(values_of(teams[other], data, [](const auto& team) { return team.items; })),
+          mean(values_of(teams[other], data, [&](const auto& team) { return known_at_end(team, data); })));
     }
 
     auto row = Json::array({design.series[design.cells[c].series].code, design.cells[c].composition, teams[c].size()});

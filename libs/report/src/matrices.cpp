@@ -12,8 +12,6 @@
 namespace kith::detail {
 namespace {
 
-using Values = std::vector<double>;
-
 constexpr std::size_t kFewestLevels = 3;
 
 // What the study varies: its levels in the order of the tables, and which of them each team has.
@@ -28,7 +26,7 @@ struct Varied {
 struct Shown {
   std::string column;
   std::string name;
-  double TeamValues::*value;
+  Quantity value;
   int digits;
   bool less_is_better;
 };

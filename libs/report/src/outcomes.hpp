@@ -5,16 +5,15 @@
 
 #include "first_screen.hpp"
 #include "kith/table/column_names.hpp"
+#include "team_tables.hpp"
 
 namespace kith::detail {
-
-using Values = std::vector<double>;
 
 // What teams are compared by.
 struct Outcome {
   std::string id;    // as in the names of findings
   std::string name;  // in a sentence
-  double TeamValues::*value;
+  Quantity value;
   int digits;
 };
 

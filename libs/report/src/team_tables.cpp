@@ -1,48 +1,18 @@
 #include "team_tables.hpp"
 
-#include <cmath>
 #include <span>
 
 #include "kith/stats/effect_size.hpp"
+#include "kith/stats/moments.hpp"
 #include "kith/stats/survival.hpp"
 
 namespace kith::detail {
 namespace {
 
-using Values = std::vector<double>;
-using Quantity = double TeamValues::*;
-
-struct Spread {
-  double mean = 0.0;
-  std::optional<double> sd;
-};
-
-// @pre values is not empty.
-Spread spread_of(std::span<const double> values) {
-  const auto n = static_cast<double>(values.size());
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  Spread result{sum / n, {}};
-  if (values.size() < 2) return result;
-  double squares = 0.0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  result.sd = std::sqrt(squares / (n - 1.0));
-  return result;
-}
-
 void add_ends(Json& row, std::span<const double> values) {
   const auto interval = mean_interval(values);
   row.push_back(interval ? number(interval->low) : Json(nullptr));
   row.push_back(interval ? number(interval->high) : Json(nullptr));
-}
-
-// The values of every cell, or of every series.
-std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity) {
-  std::vector<Values> result(design.cells.size());
-  for (std::size_t i = 0; i < data.teams.size(); ++i) {
-    result[design.cell_of_team[i]].push_back(data.teams[i].*quantity);
-  }
-  return result;
 }
 
 Json cell_keys(const ReportDesign& design, std::size_t cell) {
@@ -51,8 +21,16 @@ Json cell_keys(const ReportDesign& design, std::size_t cell) {
 
 }  // namespace
 
+std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity) {
+  std::vector<Values> result(design.cells.size());
+  for (std::size_t i = 0; i < data.teams.size(); ++i) {
+    result[design.cell_of_team[i]].push_back(data.teams[i].*quantity);
+  }
+  return result;
+}
+
 void add_interval(Json& row, std::span<const double> values) {
-  row.push_back(number(spread_of(values).mean));
+  row.push_back(number(mean(values)));
   add_ends(row, values);
 }
 
@@ -85,9 +63,8 @@ Json cells_table(const ReportDesign& design, const RunData& data) {
     row.push_back(design.cells[cell].teams);
     row.push_back(completed[cell]);
     for (const auto& quantity : quantities) {
-      const auto [mean, sd] = spread_of(quantity[cell]);
-      row.push_back(number(mean));
-      row.push_back(number(sd));
+      row.push_back(number(mean(quantity[cell])));
+      row.push_back(number(standard_deviation(quantity[cell])));
       add_ends(row, quantity[cell]);
     }
     table.add(std::move(row));
@@ -170,7 +147,7 @@ Json area_table(const ReportDesign& design, const RunData& data) {
       if (logs.empty()) continue;
       auto row = Json::array({design.series[series].code, kc + 1});
       add_interval(row, logs);
-      row.push_back(number(spread_of(areas).mean));
+      row.push_back(number(mean(areas)));
       row.push_back(logs.size());
       table.add(std::move(row));
     }

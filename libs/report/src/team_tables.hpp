@@ -4,6 +4,12 @@
 
 namespace kith::detail {
 
+using Values = std::vector<double>;
+using Quantity = double TeamValues::*;
+
+// The values of every cell.
+[[nodiscard]] std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity);
+
 // Mean, low and high (95 %), appended to a row; null where there is no answer.
 void add_interval(Json& row, std::span<const double> values);
 
