@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/decimals.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/stats/tests.hpp"
+#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 namespace {
@@ -36,10 +40,34 @@ const ComparisonFamily* comparisons_of(const Finding& finding, ComparisonFamily:
 
 std::optional<double> p_of(const ComparisonResult& one) { return one.corrected_p ? one.corrected_p : one.p; }
 
-void set_difference(const ComparisonResult& one, Answer& answer) {
+// What planned contrasts are about.
+constexpr std::array<std::pair<std::string_view, Quantity>, 5> kResponses{
+    {{columns::kPeriods, &TeamValues::periods},
+     {columns::kKnowledge, &TeamValues::knowledge},
+     {columns::kExamShareRight, &TeamValues::exam_share_right},
+     {columns::kExamRegret, &TeamValues::exam_regret},
+     {columns::kExamWorstShareRight, &TeamValues::exam_worst_share_right}}};
+
+// The standard deviation of teams of one cell, of all cells together.
+double spread_in_cells(const FirstScreen& screen, Quantity quantity) {
+  double squares = 0.0, df = 0.0;
+  for (auto& values : by_cell(screen.design, screen.data, quantity)) {
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    const double sd = standard_deviation(values).value_or(0.0),
+                 freedom = std::max(static_cast<double>(values.size()), 1.0) - 1.0;
+    squares += freedom * sd * sd;
+    df += freedom;
+  }
+  return df > 0.0 ? std::sqrt(squares / df) : 0.0;
+}
+
+double half_width(double low, double high, double spread) { return high > low ? (high - low) / 2.0 / spread : 0.0; }
+
+void set_difference(const ComparisonResult& one, double spread, Answer& answer) {
   answer.estimate = one.estimate;
   answer.low = one.low;
   answer.high = one.high;
+  if (one.low && one.high) answer.width = half_width(*one.low, *one.high, spread);
 }
 
 // The p-value of a term in the tests that a finding rests on.
@@ -148,8 +176,8 @@ std::string means_text(const std::vector<double>& means, int digits, const std::
 }
 
 bool is_of_few(const Answer& answer) {
-  constexpr std::size_t kFew = 10;
-  return answer.teams < kFew;
+  constexpr double kLarge = 0.8;  // standard deviations, Cohen (1988)
+  return answer.width > kLarge;
 }
 
 bool is_shown(const Answer& answer) { return answer.p && *answer.p < AnalysisOptions{}.alpha; }
@@ -158,18 +186,20 @@ Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
   Answer answer{"Together compared with one after the other", outcome.name, outcome.digits};
   answer.means = two_means(screen, outcome, " and ");
   answer.teams = std::min(values_of(screen, outcome, false).size(), values_of(screen, outcome, true).size());
+  const double spread = spread_in_cells(screen, outcome.value);
 
   if (const auto* finding = finding_of(screen, outcome.id + "-baseline"); finding != nullptr) {
     answer.finding = finding->id;
     const auto* family = comparisons_of(*finding, ComparisonFamily::Kind::kAlone);
     if (family != nullptr) {
-      set_difference(family->comparisons.front(), answer);
+      set_difference(family->comparisons.front(), spread, answer);
       answer.p = p_of(family->comparisons.front());
     }
   } else if (const auto test = together_against_alone(screen, outcome)) {
     answer.estimate = test->difference;
     answer.low = test->low;
     answer.high = test->high;
+    answer.width = half_width(test->low, test->high, spread);
     answer.p = test->test.p;
   }
 
@@ -195,20 +225,26 @@ std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& out
   const auto extremes = extremes_of(*finding, factor, outcome.digits);
   answer.means = extremes.means;
   answer.teams = fewest_teams(screen, factor);
-  answer.answer = is_shown(answer) ? extremes.answer : not_found(answer);
-  const auto* pairs = comparisons_of(*finding, ComparisonFamily::Kind::kPairs, factor);
-  if (pairs == nullptr) return answer;
+  answer.answer = extremes.answer;
 
-  double largest = -1.0, bound = 0.0;
-  for (const auto& pair : pairs->comparisons) {
-    if (!pair.estimate || !pair.low || !pair.high) continue;
-    bound = std::max({bound, std::abs(*pair.low), std::abs(*pair.high)});
-    if (std::abs(*pair.estimate) <= largest) continue;
-    largest = std::abs(*pair.estimate);
-    answer.compared = pair.name;
-    set_difference(pair, answer);
+  const double spread = spread_in_cells(screen, outcome.value);
+  double largest = -1.0, bound = 0.0, width = 0.0;
+  if (const auto* pairs = comparisons_of(*finding, ComparisonFamily::Kind::kPairs, factor); pairs != nullptr) {
+    for (const auto& pair : pairs->comparisons) {
+      if (!pair.estimate || !pair.low || !pair.high) continue;
+      bound = std::max({bound, std::abs(*pair.low), std::abs(*pair.high)});
+      width = std::max(width, half_width(*pair.low, *pair.high, spread));
+      if (std::abs(*pair.estimate) <= largest) continue;
+      largest = std::abs(*pair.estimate);
+      answer.compared = pair.name;
+      set_difference(pair, spread, answer);
+    }
   }
-  if (is_shown(answer) || largest < 0.0) return answer;
+  if (largest >= 0.0) answer.width = width;
+  if (is_shown(answer)) return answer;
+
+  answer.answer = not_found(answer);
+  if (largest < 0.0) return answer;
   answer.estimate = answer.low = answer.high = std::nullopt;
   answer.bound = bound;
   answer.compared.clear();
@@ -223,7 +259,9 @@ std::vector<Answer> planned(const FirstScreen& screen) {
   for (const auto& comparison : family->comparisons) {
     Answer answer{finding->topic, comparison.name, comparison.response == kPeriods.id ? kPeriods.digits : 2,
                   finding->id};
-    set_difference(comparison, answer);
+    const auto outcome =
+        std::ranges::find(kResponses, comparison.response, &std::pair<std::string_view, Quantity>::first);
+    set_difference(comparison, outcome == kResponses.end() ? 0.0 : spread_in_cells(screen, outcome->second), answer);
     answer.p = p_of(comparison);
     answer.teams = fewest_teams(screen, "strategy");
     answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : not_found(answer);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,11 @@ struct Answer {
   std::optional<double> p{};
   std::string answer{};
   std::size_t teams = 0;  // the fewest that are compared, of a level
+  // Half of the (widest) interval, in standard deviations of teams of a cell; infinite without an interval.
+  double width = std::numeric_limits<double>::infinity();
 };
 
-// Whether there are so few teams that no difference says next to nothing.
+// Whether there are so few teams that no difference says next to nothing: even a large one would not be seen.
 [[nodiscard]] bool is_of_few(const Answer& answer);
 
 // "6.3 and 10.3", shares with as many decimals as they need.

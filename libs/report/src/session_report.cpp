@@ -8,6 +8,7 @@
 #include "kith/analysis/analysis.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/table/column_names.hpp"
+#include "outcomes.hpp"
 #include "session_tables.hpp"
 #include "team_tables.hpp"
 
@@ -453,6 +454,7 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
                 {"summary", summary_of(tables, design.people)}};
 
   if (!tables.groups.empty()) {
+    overview["fixed_periods"] = has_fixed_periods(screen);
     overview["finding"] = headline(screen);
     overview["answers"] = answers(screen);
     overview["limits"] = limits(screen);

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "answers.hpp"
 #include "beliefs.hpp"
 #include "bibliography.hpp"
 #include "kith/geometry/outline.hpp"
@@ -116,6 +120,39 @@ TEST(TellingTeams, AreTheOnlyTeamIfThereIsOne) {
   RunData data;
   data.teams = {{.completed = true, .periods = 3.0, .knowledge = 0.5, .area_sr = 1.0}};
   EXPECT_EQ(telling_teams(design, data).size(), 1u);
+}
+
+// What the report says of teams that needed so many periods together and alone, in the same order of people.
+std::string said_of(const std::vector<double>& together, const std::vector<double>& alone, bool paired) {
+  ReportDesign design{{{"joint", "Joint", "joint", 0, {}}, {"baseline", "Baseline", "baseline", 0, {}}},
+                      {{0, "NP", together.size()}, {1, "NP", alone.size()}},
+                      {},
+                      2};
+  RunData data;
+  for (std::size_t cell : {0u, 1u}) {
+    const auto& values = cell == 0 ? together : alone;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      design.cell_of_team.push_back(cell);
+      data.teams.push_back({.replicate = i + 1, .periods = values[i]});
+    }
+  }
+  const std::vector<Finding> findings;
+  const FirstScreen screen{.design = design, .data = data, .findings = findings, .paired = paired};
+  return answer_about_alone(screen, kPeriods).answer;
+}
+
+// Whether teams are too few follows from what their interval still allows, not from how many they are.
+TEST(Answers, AreOfTooFewTeamsIfALargeDifferenceMayBe) {
+  EXPECT_EQ(said_of({2.0, 6.0, 10.0, 14.0}, {2.1, 5.9, 10.1, 13.9}, true), "no difference found");
+  EXPECT_EQ(said_of({2.0, 6.0, 10.0, 14.0}, {6.1, 1.9, 14.1, 9.9}, true), "too few teams to tell");
+  EXPECT_EQ(said_of({2.0, 6.0}, {2.0, 6.0}, false), "too few teams to tell");
+  std::vector<double> many;
+  for (const auto& [teams, said] : {std::pair{12, "too few teams to tell"}, {14, "no difference found"}}) {
+    while (many.size() < static_cast<std::size_t>(teams)) many.push_back(many.size() % 2 == 0 ? 4.0 : 6.0);
+    EXPECT_EQ(said_of(many, many, false), said) << teams;
+  }
+  // Nothing varies, so nothing is left to find.
+  EXPECT_EQ(said_of({3.0, 4.0, 4.0}, {3.0, 4.0, 4.0}, true), "not tested");
 }
 
 }  // namespace
