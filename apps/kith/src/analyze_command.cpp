@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
 
 #include "command.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/exports.hpp"
 #include "kith/analysis/r_script.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
 #include "kith/files/published_run.hpp"
@@ -181,14 +184,10 @@ std::string text_of(const ResultTable& table, const Console& console) {
 
 std::string note_text(const std::string& note) { return wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n"; }
 
-std::string title_and_sentence(const Finding& finding, const Console& console) {
+std::string text_of(const Finding& finding, const Console& console) {
   std::string text = console.bold(finding.title()) + "\n";
   if (finding.model != finding.title()) text += console.dim(finding.model) + "\n";
-  return text + wrapped(finding.sentence, kTextWidth) + "\n";
-}
-
-std::string text_of(const Finding& finding, const Console& console) {
-  auto text = title_and_sentence(finding, console);
+  text += wrapped(finding.sentence, kTextWidth) + "\n";
   for (const auto& warning : finding.warnings) text += note_text(warning);
   if (!finding.results.empty()) text += "\n" + wrapped("For a paper: " + finding.results, kTextWidth) + "\n";
   for (const auto& table : finding.tables) text += text_of(table, console);
@@ -205,84 +204,66 @@ bool is_on_the_page(const Finding& finding) {
          });
 }
 
-// Findings for a page, and those that are left; all of them if there would be none.
-struct Page {
-  std::vector<const Finding*> shown, left;
-};
-Page page_of(const Analysis& analysis) {
-  Page page;
-  for (const auto& finding : analysis.findings) (is_on_the_page(finding) ? page.shown : page.left).push_back(&finding);
-  if (page.shown.empty()) std::swap(page.shown, page.left);
-  return page;
+// What is only in the long form, by name where there is room for it.
+std::string left_text(std::span<const Finding* const> left, std::size_t num_notes, const Analysis& analysis,
+                      bool brief) {
+  if (brief && left.empty()) return "";
+  std::string what;
+  const auto add = [&](const std::string& one) { what += (what.empty() ? ", and " : ", ") + one; };
+  if (brief) add(counted(left.size(), "more finding"));
+  if (num_notes > 0) add(counted(num_notes, "note"));
+  for (const auto* finding : brief ? left.first(0) : left) add(finding->id);
+  return (brief ? "" : "\n") +
+         wrapped("`kith analyze " + analysis.subject + " --all` shows every table" + what + ".", kTextWidth) + "\n";
 }
 
-// Once each, with the findings that they are about.
-std::string notes_text(const std::vector<const Finding*>& findings) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
-  for (const auto* finding : findings) {
-    for (const auto& warning : finding->warnings) {
-      const auto known =
-          std::find_if(notes.begin(), notes.end(), [&](const auto& note) { return note.first == warning; });
-      auto& note = known != notes.end() ? *known : notes.emplace_back(warning, std::vector<std::string>{});
-      note.second.push_back(finding->id);
-    }
-  }
-  std::string text;
-  for (const auto& [note, ids] : notes) {
-    text += wrapped("Note (" + (ids.size() == findings.size() ? "all" : fmt::format("{}", fmt::join(ids, ", "))) +
-                        "): " + note + ".",
-                    kTextWidth, "      ") +
-            "\n";
-  }
-  return text;
-}
-
-std::string left_text(const std::vector<const Finding*>& left, const std::string& input) {
-  if (left.empty()) return "";
-  std::vector<std::string> ids;
-  for (const auto* finding : left) ids.push_back(finding->id);
-  return "\n" +
-         wrapped(fmt::format("Also analysed, and shown with every table by `kith analyze {} --all`: {}.", input,
-                             fmt::join(ids, ", ")),
-                 kTextWidth) +
-         "\n";
-}
-
-// The findings of a run on a page: the answers, and one table each; all of their tables where comparisons were asked
-// for.
-std::string page_text(const Analysis& analysis, const AnalyzeOptions& options, const Console& console) {
-  const auto page = page_of(analysis);
+// The findings of a run on a page: what was found, then as many first tables and notes as there is room for; all tables
+// where comparisons were asked for. The brief form is shorter still, and in words.
+std::string page_text(const Analysis& analysis, const AnalyzeOptions& options, const Console& console,
+                      std::string text) {
+  const auto num_lines = [](const std::string& lines) { return std::count(lines.begin(), lines.end(), '\n'); };
   const bool compares = !options.contrasts.empty() || !options.by.empty() || !options.smallest_effect.empty();
-  std::string text;
-  for (const auto* finding : page.shown) {
-    text += (text.empty() ? "" : "\n") + title_and_sentence(*finding, console);
-    for (const auto& table : finding->tables) {
-      if (compares || &table == &finding->tables.front()) text += text_of(table, console);
+  std::vector<const Finding*> all;
+  for (const auto& finding : analysis.findings) all.push_back(&finding);
+  const auto others = std::ranges::stable_partition(all, [](const auto* one) { return is_on_the_page(*one); });
+  const auto most = options.brief || others.size() == all.size() ? all.size() : all.size() - others.size();
+  auto room = (options.brief ? 25 : 45) - num_lines(text) - num_lines(left_text(all, 10, analysis, options.brief));
+  const auto fits = [&](const std::string& part) {
+    if (num_lines(part) > room && (options.brief || !compares)) return false;
+    room -= num_lines(part);
+    return true;
+  };
+
+  std::vector<std::string> parts;
+  while (parts.size() < most) {
+    const auto& finding = *all[parts.size()];
+    auto part = options.brief
+                    ? wrapped("* " + finding.sentence, kTextWidth, "  ") + "\n"
+                    : "\n" + console.bold(finding.title()) + "\n" + wrapped(finding.sentence, kTextWidth) + "\n";
+    if (!fits(part) && !parts.empty()) break;
+    parts.push_back(std::move(part));
+  }
+
+  for (std::size_t i = 0; i < parts.size() && !options.brief; ++i) {
+    for (const auto& table : all[i]->tables) {
+      const auto rows = text_of(table, console);
+      if ((compares || &table == &all[i]->tables.front()) && fits(rows)) parts[i] += rows;
     }
   }
-  const auto notes = notes_text(page.shown);
-  return text + (notes.empty() ? "" : "\n" + notes) + left_text(page.left, analysis.subject);
-}
-
-// The same in no more than 25 lines.
-std::string brief_text(const Analysis& analysis, const std::string& notes) {
-  constexpr long kMostLines = 25;
-  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
-  auto page = page_of(analysis);
-  page.shown.insert(page.shown.end(), page.left.begin(), page.left.end());
-  std::string text;
-  std::size_t shown = 0;
-  for (; shown < page.shown.size(); ++shown) {
-    const auto next = wrapped("* " + page.shown[shown]->sentence, kTextWidth, "  ") + "\n";
-    if (lines(notes) + lines(text) + lines(next) > kMostLines - 2 && shown > 0) break;
-    text += next;
+  std::set<std::string> notes;
+  std::size_t num_left = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    text += parts[i];
+    for (const auto& warning : options.brief ? std::vector<std::string>{} : all[i]->warnings) {
+      const auto note = "\n" + note_text(warning);
+      if (!notes.insert(warning).second) continue;
+      if (fits(note))
+        text += note;
+      else
+        ++num_left;
+    }
   }
-  if (shown < page.shown.size()) {
-    text += wrapped(fmt::format("{} more: kith analyze {} --all", page.shown.size() - shown, analysis.subject),
-                    kTextWidth) +
-            "\n";
-  }
-  return text;
+  return text + left_text(std::span{all}.subspan(parts.size()), num_left, analysis, options.brief);
 }
 
 Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
@@ -354,13 +335,11 @@ int run(const AnalyzeOptions& options, Console& console) {
   }
   std::string text;
   for (const auto& note : analysis.notes) text += note_text(note);
-  if (options.brief) {
-    text += brief_text(analysis, text);
-  } else if (options.all || !options.model.empty()) {
+  if (!options.brief && (options.all || !options.model.empty())) {
     for (const auto& finding : analysis.findings) text += (text.empty() ? "" : "\n") + text_of(finding, console);
     if (!analysis.not_analysed.empty()) text += "\n" + wrapped(not_analysed_text(analysis), kTextWidth) + "\n";
   } else {
-    text += (text.empty() ? "" : "\n") + page_text(analysis, options, console);
+    text = page_text(analysis, options, console, text);
   }
   console.print(text);
   return 0;
