@@ -9,6 +9,7 @@ import type { Figure } from './figure';
 import { counted } from './gist';
 
 const kWide = 620; // px; from here names say what a strategy does
+const kLineLength = 36; // letters of a name beside the panels
 const kColumns = ['factor', 'level', 'against', 'outcome', 'difference', 'low', 'high', 'n'];
 
 type Group = Differences['groups'][number];
@@ -28,7 +29,11 @@ function label(study: Study, factor: string, code: string, width: number): strin
     factor === 'strategy'
       ? [study.words.strategy(code), study.factors.length > 0 ? '' : study.words.plainStrategy(code)]
       : [code, study.words.plainComposition(code)];
-  return meaning && width >= kWide ? `${meaning}|(${name})` : name;
+  if (!meaning || width < kWide) return name;
+  if (meaning.length <= kLineLength) return `${meaning}|(${name})`;
+  const middle = meaning.lastIndexOf(' ', kLineLength); // a row has room for two lines
+  const rest = `${meaning.slice(middle + 1)} (${name})`;
+  return middle > 0 && rest.length <= kLineLength ? `${meaning.slice(0, middle)}|${rest}` : name;
 }
 
 function spec(study: Study, { factor, rows }: Group, outcomes: Differences['outcomes'], width: number): Spec {
@@ -69,7 +74,8 @@ function reading(study: Study, { factor, against, rows }: Group, interval: strin
     factor === 'strategy'
       ? [study.words.strategy(against).toLowerCase(), study.factors.length > 0 ? '' : study.words.plainStrategy(against)]
       : [against, study.words.plainComposition(against)];
-  return `Right of the line is more than with ${name}${meaning ? ` (${meaning})` : ''}. Bars are 95\u00a0% intervals: ${interval}; every panel has a scale of its own. ${n} ${study.words.letters()}`;
+  const setting = factor === 'strategy' && study.factors.length > 0 && !against.includes('[') ? ' at the same setting' : '';
+  return `Right of the line is more than with ${name}${meaning ? ` (${meaning})` : ''}${setting}. Bars are 95\u00a0% intervals: ${interval}; every panel has a scale of its own. ${n} ${study.words.letters()}`;
 }
 
 // Strategies first; the first figure belongs to the first screen.
