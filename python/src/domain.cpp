@@ -59,7 +59,9 @@ std::optional<std::size_t> number_in(const std::string& key, std::size_t num_sta
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
   const std::string_view rest{end, static_cast<std::size_t>(key.data() + key.size() - end)};
-  if (error != std::errc{} || number >= num_states || !(rest.empty() || rest == " (end)")) return std::nullopt;
+  const bool is_plain = static_cast<std::size_t>(end - key.data()) == std::to_string(number).size();  // not "01"
+  if (error != std::errc{} || number >= num_states || !is_plain || !(rest.empty() || rest == " (end)"))
+    return std::nullopt;
   return number;
 }
 
@@ -243,7 +245,7 @@ StartIndex LoadedDomain::state_of(const py::handle& start) {
 std::size_t state_number(const Domain& domain, MdpIndex m, StateIndex s) {
   const auto& keys = domain.model_keys();
   if (keys.empty() || keys.front() != "0") return s.value();
-  return number_in(domain.state_key(m, s), keys.size()).value_or(s.value());
+  return number_in(domain.state_key(m, s), keys.size()).value_or(keys.size() + s.value());
 }
 
 std::optional<StateIndex> state_with_number(const Domain& domain, MdpIndex m, std::size_t number) {

@@ -156,6 +156,36 @@ class Gymnasium(unittest.TestCase):
             self.assertEqual(env.P[s][LAKE_ACTIONS.index(action)][0][1], t)
             self.assertEqual(robot.policy[0][s], action)
 
+    def test_no_two_states_have_one_number(self):
+        text = """schema = "kith.domain/1"
+id = "mixed"
+[mdp]
+discount = 1.0
+[model]
+format = "csv"
+states = "states.csv"
+transitions = "transitions.csv"
+[[feature]]
+name = "mud"
+[[feature]]
+name = "step"
+[reward]
+weights = { mud = -3, step = -1 }
+"""
+        names = ["0", "door", "1", "01", "2"]  # the door comes second, where others are called by their numbers
+        states = "state,terminal\n" + "".join(f"{name},{str(name == '2').lower()}\n" for name in names)
+        rows = "".join(f"{s},go,{t},0,1\n{s},wade,{u},1,1\n" for s, t, u in
+                       [("0", "door", "1"), ("door", "1", "01"), ("1", "01", "2"), ("01", "2", "0")])
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in (("mixed.toml", text), ("states.csv", states),
+                                  ("transitions.csv", "state,action,next,mud,step\n" + rows)):
+                pathlib.Path(folder, name).write_text(content, encoding="utf-8")
+            robot = kith.Domain(str(pathlib.Path(folder, "mixed.toml")))
+        self.assertEqual(len(set(robot.starts)), 4)
+        called = [robot.worlds[0].state_names[number] for _, number in robot.starts]
+        self.assertEqual(sorted(called), ["0", "01", "1", "door"])
+        self.assertEqual(called[robot.starts.index((0, 1))], "1")
+
     def test_what_a_file_takes_the_module_takes(self):
         env = LakeEnv()
         features = {"hole": lambda s, a, t: t in env.holes, "step": lambda s, a, t: 1}
