@@ -27,8 +27,6 @@ struct FindOptions {
   std::string domain;
   std::vector<std::string> constraint;  ///< A normal or a sentence, in one argument or in several; empty: list all.
   bool test = false;                    ///< Wanted for a test rather than for a demonstration.
-  std::size_t changes = 2;              ///< Most cells in which a world that is made may differ.
-  bool no_make = false;                 ///< Make no world where the family has none.
   std::string out;                      ///< Where the world goes as a domain file; empty: nowhere.
 };
 
@@ -58,67 +56,38 @@ void list_constraints(const Atlas& atlas, Console& console) {
   console.print("start states that teach or test one constraint and nothing else\n" + table.text(console));
 }
 
-// A start that teaches or tests the constraint alone, in the family or in a world that was made.
-struct FoundDemo {
-  const Atlas& atlas;
-  StartIndex demo;
-  const MadeWorld* made;  // nothing: it is in the family
-};
-
 std::string reason_of(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
   const auto contrast = contrast_for(atlas, demo, constraint);
   return contrast ? reason(atlas, *contrast) : in_words(atlas.domain(), constraint);
 }
 
-void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace& constraint, Purpose purpose,
+void print_finding(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose,
                    Console& console) {
-  const auto& domain = found.atlas.domain();
-  const auto id = found.atlas.id(found.demo);
-  const auto path = found.atlas.trajectory(found.demo);
-  const std::string verb = purpose == Purpose::kTeach ? "teaches" : "tests";
+  const auto& domain = atlas.domain();
+  const auto id = atlas.id(demo);
+  const auto path = atlas.trajectory(demo);
   // Without tables whole paths that people could expect are not known.
-  const bool is_rough = purpose == Purpose::kTest && found.atlas.find_tables() == nullptr;
-  std::string text;
-  if (found.made == nullptr) {
-    text = fmt::format("W{}, start {} {} exactly this{}: {}\n", world_text(domain, id.mdp).substr(1), id.start.value(),
-                       verb, is_rough ? ", as far as single other actions tell" : "", described(domain, constraint));
-  } else {
-    std::vector<std::string> changes;
-    for (const auto& change : found.made->changes) changes.push_back(change_in_words(*family.map(), change));
-    text = wrapped(fmt::format("No world of {} {} exactly this: {}. One was made from world {}: {}.", family.id(), verb,
-                               described(domain, constraint), found.made->base.value(), listed(changes)),
-                   kTextWidth) +
-           "\n";
-  }
-  text += wrapped(reason_of(found.atlas, found.demo, constraint), kTextWidth) + "\n" +
-          start_and_path(domain, id, path, 2) + "  the robot: " + actions_text(domain, id.mdp, path) + "\n\n" +
-          legend(domain, 0);
-  console.print(text);
+  const bool is_rough = purpose == Purpose::kTest && atlas.find_tables() == nullptr;
+  console.print(fmt::format("W{}, start {} {} exactly this{}: {}\n", world_text(domain, id.mdp).substr(1),
+                            id.start.value(), purpose == Purpose::kTeach ? "teaches" : "tests",
+                            is_rough ? ", as far as single other actions tell" : "", described(domain, constraint)) +
+                wrapped(reason_of(atlas, demo, constraint), kTextWidth) + "\n" + start_and_path(domain, id, path, 2) +
+                "  the robot: " + actions_text(domain, id.mdp, path) + "\n\n" + legend(domain, 0));
 }
 
-void print_finding_json(const FoundDemo& found, const HalfSpace& constraint, Purpose purpose, Console& console) {
-  const auto& domain = found.atlas.domain();
-  const auto id = found.atlas.id(found.demo);
+void print_finding_json(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose,
+                        Console& console) {
+  const auto& domain = atlas.domain();
+  const auto id = atlas.id(demo);
   auto json = board_json(domain, id);
-  json.update(path_json(domain, id.mdp, found.atlas.trajectory(found.demo)));
-  json["reason"] = reason_of(found.atlas, found.demo, constraint);
-  Json made = nullptr;
-  if (found.made != nullptr) {
-    const auto map = domain.map().value();  // worlds are made by changing a map
-    made = {{"from", found.made->base.value()}, {"changes", Json::array()}, {"domain", found.made->text}};
-    for (const auto& change : found.made->changes) {
-      made["changes"].push_back({{"cell", {change.cell.x, map.height() + 1 - change.cell.y}},
-                                 {"from", std::string{change.from}},
-                                 {"to", std::string{change.to}}});
-    }
-  }
+  json.update(path_json(domain, id.mdp, atlas.trajectory(demo)));
+  json["reason"] = reason_of(atlas, demo, constraint);
   console.print_json({{"schema", "kith.find/1"},
                       {"program", program_name()},
                       {"domain", board_domain_json(domain)},
                       {"purpose", name_of(purpose)},
                       {"constraint", sentences_json(domain, std::vector{constraint}).front()},
-                      {"found", std::move(json)},
-                      {"made", std::move(made)}});
+                      {"found", std::move(json)}});
 }
 
 Error infeasible(const std::string& id, const std::string& message, const std::string& hint) {
@@ -136,21 +105,15 @@ Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
 }
 
 // The world as a domain file of its own.
-void write_world(const std::string& out, const std::string& family_text, const FoundDemo& found, Console& console) {
+void write_world(const FindOptions& options, const Domain& domain, MdpIndex world, Console& console) {
   std::optional<std::string> text;
-  if (found.made != nullptr) {
-    text = found.made->text;
-  } else {
-    const auto& domain = found.atlas.domain();
-    const auto world = found.atlas.id(found.demo).mdp;
-    if (const auto map = domain.map()) {
-      text =
-          with_one_map(family_text, fmt::format("{}-{}", domain.id(), world.value()), map->draw(world, std::nullopt));
-    }
-    if (!text) throw not_a_file_of_its_own(domain, world);
+  if (const auto map = domain.map()) {
+    text = with_one_map(read_named(options.domain).text, fmt::format("{}-{}", domain.id(), world.value()),
+                        map->draw(world, std::nullopt));
   }
-  write_file_atomically(out, *text);
-  console.info(fmt::format("world in {}; kith curriculum {} shows it", out, out));
+  if (!text) throw not_a_file_of_its_own(domain, world);
+  write_file_atomically(options.out, *text);
+  console.info(fmt::format("world in {}; kith curriculum {} shows it", options.out, options.out));
 }
 
 // Whether any start conveys it, and what comes with it.
@@ -167,19 +130,13 @@ std::string why_none(const Atlas& atlas, const HalfSpace& constraint, Purpose pu
                      third_person, besides.empty() ? "more than it says" : listed(besides));
 }
 
-Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, const FindOptions& options) {
-  auto message = fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
-                             purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
-  const bool can_make = can_make_worlds(atlas.domain());
-  if (!options.no_make && can_make) {
-    message +=
-        fmt::format(", and no world was found that differs in {} at most and does", counted(options.changes, "cell"));
-  }
-  const auto next = options.no_make && can_make ? "without --no-make a world is made"
-                    : can_make ? fmt::format("--changes {} also tries worlds that differ more", options.changes + 1)
-                               : "`kith find DOMAIN` lists what can be isolated";
+Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
+  const auto message =
+      fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
+                  purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
   const std::string ties = leaves_out_ties(atlas) ? "; comparisons of equally good paths do not count here" : "";
-  return infeasible("E1111", message, why_none(atlas, constraint, purpose) + ties + "; " + next);
+  return infeasible("E1111", message,
+                    why_none(atlas, constraint, purpose) + ties + "; `kith find DOMAIN` lists what can be isolated");
 }
 
 void declare(OptionList& list, FindOptions& options) {
@@ -187,8 +144,6 @@ void declare(OptionList& list, FindOptions& options) {
   list.texts("constraint", options.constraint, "CONSTRAINT",
              "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed");
   list.flag("--test", options.test, "For a test rather than for a demonstration");
-  list.flag("--no-make", options.no_make, "Do not make a world where the domain has none");
-  list.integer("--changes", options.changes, {1, 6}, "Most cells in which a world that is made may differ");
   list.text("-o,--out", options.out, "FILE", "Write the world to this file, as a domain of its own");
   list.json();
 }
@@ -204,24 +159,17 @@ int run(const FindOptions& options, Console& console) {
   const auto constraint = parse_constraint(atlas, wanted);
   const auto purpose = options.test ? Purpose::kTest : Purpose::kTeach;
   const auto demo = simplest_isolating(atlas, constraint, purpose);
-  std::optional<MadeWorld> made;
-  const auto text = !demo || !options.out.empty() ? read_named(options.domain).text : std::string{};
-  if (!demo && !options.no_make) made = make_world(atlas, text, constraint, purpose, {.max_changes = options.changes});
-  if (!demo && !made) throw not_found(atlas, constraint, purpose, options);
-  const FoundDemo found = demo ? FoundDemo{atlas, *demo, nullptr} : FoundDemo{made->atlas, made->demo, &*made};
-  if (!options.out.empty()) write_world(options.out, text, found, console);
-  if (console.json()) {
-    print_finding_json(found, constraint, purpose, console);
-  } else {
-    print_finding(atlas.domain(), found, constraint, purpose, console);
-  }
+  if (!demo) throw not_found(atlas, constraint, purpose);
+  if (!options.out.empty()) write_world(options, atlas.domain(), atlas.id(*demo).mdp, console);
+  const auto print = console.json() ? print_finding_json : print_finding;
+  print(atlas, *demo, constraint, purpose, console);
   return 0;
 }
 
 }  // namespace
 
 void add_find(Commands& commands) {
-  commands.add<FindOptions>("find", "Find or make a world that teaches or tests exactly one constraint",
+  commands.add<FindOptions>("find", "Find a world that teaches or tests exactly one constraint",
                             {"kith find item-delivery", "kith find item-delivery '(-1,0,2)' --test",
                              "kith find item-delivery '(-1,0,2)' -o world.toml"},
                             declare, run);

@@ -40,10 +40,9 @@ constexpr std::size_t kListLength = 20;  // without --all
 // to teach, but still something to see.
 class Inspection {
  public:
-  // `name` is the domain as it was asked for, `text` its file.
-  Inspection(const Domain& domain, const std::string& name, const std::string& text, const Atlas* atlas, MdpIndex mdp,
-             bool all, const Console& console)
-      : domain_{domain}, name_{name}, text_{text}, atlas_{atlas}, mdp_{mdp}, all_{all}, console_{console} {}
+  Inspection(const Domain& domain, const std::string& name, const Atlas* atlas, MdpIndex mdp, bool all,
+             const Console& console)
+      : domain_{domain}, name_{name}, atlas_{atlas}, mdp_{mdp}, all_{all}, console_{console} {}
 
   std::string text(const std::vector<std::string>& parts) {
     out_ += title();
@@ -205,22 +204,8 @@ class Inspection {
                             weights[k] < 0 ? "costs" : "is worth", std::abs(own.value()), unit);
       } else {
         out_ += "  " + domain_.wording(k).one + " has any weight: no world tests it, and nothing about it is taught\n";
-        out_ += would_matter(k, weights[k] < 0 ? -1 : 1);
       }
     }
-  }
-
-  // A world with one cell changed in which the robot shows that feature k costs something or is worth something.
-  [[nodiscard]] std::string would_matter(std::size_t k, int sign) const {
-    IntegerVector normal(domain_.num_features());
-    normal[k] = sign;
-    const auto made = make_world(*atlas_, text_, HalfSpace{normal}, Purpose::kTeach, {.max_changes = 1});
-    const auto command =
-        fmt::format("kith find {} '{} {} something'", name_, domain_.wording(k).one, sign < 0 ? "costs" : "is worth");
-    if (!made) return fmt::format("    {} looks for a world that would\n", command);
-    std::vector<std::string> changes;
-    for (const auto& change : made->changes) changes.push_back(change_in_words(*domain_.map(), change));
-    return fmt::format("    {} would, if {}: {} shows it\n", world_text(domain_, made->base), listed(changes), command);
   }
 
   // How long things take with this robot on this machine, by doing some of them.
@@ -372,7 +357,6 @@ class Inspection {
 
   const Domain& domain_;
   const std::string& name_;
-  const std::string& text_;
   const Atlas* atlas_;
   MdpIndex mdp_;
   bool all_;
@@ -394,7 +378,6 @@ void declare(OptionList& list, InspectOptions& options) {
 int run(const InspectOptions& options, Console& console) {
   const WorkNotice notice{console, "planning " + options.domain};
   const auto domain = load_domain(options.domain);
-  const auto text = options.domain == "-" ? std::string{} : read_named(options.domain).text;
   const auto mdp = options.mdp.empty() ? MdpIndex{domain.num_mdps() - 1} : mdp_called(domain, options.mdp);
   std::optional<const Atlas> atlas;
   if (domain.num_features() > 1) atlas.emplace(domain);
@@ -415,7 +398,7 @@ int run(const InspectOptions& options, Console& console) {
                      : inspection_json(domain);
       },
       [&] {
-        return Inspection{domain, options.domain, text, atlas ? &*atlas : nullptr, mdp, options.all, console}.text(
+        return Inspection{domain, options.domain, atlas ? &*atlas : nullptr, mdp, options.all, console}.text(
             options.show);
       });
   if (!atlas) console.warning("what can be taught is not shown: with a single feature there is nothing to weigh");

@@ -173,27 +173,17 @@ TEST(FindCommand, FindsAStartByNormalOrSentence) {
   EXPECT_EQ(run_kith({"find", "item-delivery", "crossing rubble costs more than 2 steps"}).out, by_normal.out);
   const auto document = Json::parse(run_kith({"find", "item-delivery", "(-1,0,2)", "--test", "--json"}).out);
   EXPECT_EQ(document.at("purpose"), "test");
-  EXPECT_TRUE(document.at("made").is_null());
   expect_board(document, document.at("found"), document["found"].at("frames"));
 }
 
-TEST(FindCommand, MakesAWorldWhereThereIsNoneAndWritesItAsADomain) {
+TEST(FindCommand, SaysThatNoWorldDoesItAndWritesOneThatDoes) {
   const Scratch scratch;
-  const auto none = run_kith({"find", "item-delivery", "(1,1,0)", "--no-make"});
+  const auto none = run_kith({"find", "item-delivery", "(1,1,0)"});
   EXPECT_EQ(none.code, 4);
   EXPECT_THAT(none.err, HasSubstr("no start state of 'item-delivery' teaches exactly (1,1,0)"));
-  EXPECT_EQ(Json::parse(run_kith({"find", "item-delivery", "(1,1,0)", "--no-make", "--json"}).out)["errors"][0]["id"],
-            "E1111");
-  // World 2 has one heap of rubble; without it, another must be put somewhere.
-  ASSERT_EQ(run_kith({"find", "item-delivery", "(-1,0,2)", "-o", scratch / "one.toml"}).code, 0);
-  auto text = text_of(scratch / "one.toml");
-  const auto heap = text.find("G.r");
-  ASSERT_NE(heap, std::string::npos);
-  std::ofstream{scratch / "none.toml"} << text.replace(heap, 3, "G..");
-  const auto made = run_kith({"find", scratch / "none.toml", "(-1,0,2)", "-o", scratch / "world.toml"});
-  EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("One was made from world "));
-  const auto again = run_kith({"find", scratch / "world.toml", "(-1,0,2)", "--no-make"});
+  EXPECT_EQ(Json::parse(run_kith({"find", "item-delivery", "(1,1,0)", "--json"}).out)["errors"][0]["id"], "E1111");
+  ASSERT_EQ(run_kith({"find", "item-delivery", "(-1,0,2)", "-o", scratch / "world.toml"}).code, 0);
+  const auto again = run_kith({"find", scratch / "world.toml", "(-1,0,2)"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("World 0, start "));
   EXPECT_EQ(run_kith({"validate", scratch / "world.toml"}).code, 0);
@@ -233,13 +223,10 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   ASSERT_FALSE(constraints.empty());
   std::string normal;
   for (const auto& entry : constraints[0].at("normal")) normal += entry.dump() + " ";
-  for (const auto& arguments : {std::vector<std::string>{"find", icy, normal}, {"find", icy, normal, "--no-make"}}) {
-    const auto none = run_kith(arguments);
-    EXPECT_EQ(none.code, 4);
-    EXPECT_THAT(none.err, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
-                                HasSubstr("`kith find DOMAIN` lists what can be isolated"),
-                                ::testing::Not(HasSubstr("few cells"))));
-  }
+  const auto none = run_kith({"find", icy, normal});
+  EXPECT_EQ(none.code, 4);
+  EXPECT_THAT(none.err, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
+                              HasSubstr("`kith find DOMAIN` lists what can be isolated")));
   const Scratch scratch;
   const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
   const auto written = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml"});

@@ -52,8 +52,6 @@ TEST(FirstHour, MessagesShowTheMend) {
   EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--seed", "99999999999999999999999"}).err,
               HasSubstr("from 0 to 9223372036854775807"));
   EXPECT_THAT(run_kith({"teach", "item-delivery", "--group", "nnp"}).err, HasSubstr("did you mean --group NNP?"));
-  const auto none = run_kith({"find", "item-delivery", "(1,1,0)", "--no-make"});
-  EXPECT_THAT(none.err, HasSubstr("without --no-make a world is made"));
 }
 
 TEST(FirstHour, AFolderInPlaceOfAFileNamesTheFilesInIt) {

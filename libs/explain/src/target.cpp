@@ -9,13 +9,18 @@
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 #include "question_parser.hpp"
-#include "target_region.hpp"
 
 namespace kith {
 namespace {
 
 const ConstraintSet& set_for(const Atlas& atlas, StartIndex demo, Purpose purpose) {
   return purpose == Purpose::kTeach ? atlas.one_step(demo) : atlas.tested_constraints(demo);
+}
+
+// The minimal set of what the constraint leaves of the prior; empty if it contradicts it.
+std::vector<HalfSpace> target_facets(const Cone& prior, const HalfSpace& constraint) {
+  const auto region = prior.clipped(constraint);
+  return region ? region->minimal_set() : std::vector<HalfSpace>{};
 }
 
 // The half-spaces of a region that are not among those of the prior.
@@ -172,11 +177,11 @@ bool leaves_out_ties(const Atlas& atlas) {
 bool isolates(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose) {
   auto region = atlas.prior_cone();
   return region.clip(atlas.constraints().half_spaces(set_for(atlas, demo, purpose))) &&
-         region.minimal_set() == detail::target_facets(atlas.prior_cone(), constraint);
+         region.minimal_set() == target_facets(atlas.prior_cone(), constraint);
 }
 
 std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
-  const auto target = detail::target_facets(atlas.prior_cone(), constraint);
+  const auto target = target_facets(atlas.prior_cone(), constraint);
   Remainders regions{atlas};
   std::optional<std::tuple<int, std::size_t, StartIndex>> best;
   for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {

@@ -6,8 +6,6 @@
 
 #include "atlases.hpp"
 #include "kith/core/error.hpp"
-#include "kith/domains/domain_file.hpp"
-#include "kith/domains/variation.hpp"
 #include "kith/explain/words.hpp"
 
 namespace kith {
@@ -100,65 +98,6 @@ TEST(ParseConstraint, RefusesWhatIsNoneOrCannotBeTaught) {
   }
   EXPECT_EQ(id_of(atlas, "(1,0,-2)"), "E1110 infeasible") << "contradicts the robot";
   EXPECT_EQ(id_of(atlas, "(0,0,-1)"), "E1110 infeasible") << "known beforehand";
-}
-
-// Item delivery in a room without rubble and charger, which nothing can be taught about.
-std::string empty_room() {
-  const auto& built_in = built_in_domains();
-  const auto text =
-      std::find_if(built_in.begin(), built_in.end(), [](const auto& one) { return one.name == "item-delivery"; })->text;
-  return with_one_map(text, "empty-room", {"#...", "#...", "G..S"}).value();
-}
-
-TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
-  const auto text = empty_room();
-  const Atlas atlas{parse_domain(text, "empty-room").domain.value()};
-  const HalfSpace constraint{IntegerVector{-1, 0, 2}};
-  ASSERT_FALSE(simplest_isolating(atlas, constraint, Purpose::kTeach).has_value());
-  const auto made = make_world(atlas, text, constraint, Purpose::kTeach);
-  ASSERT_TRUE(made.has_value());
-  ASSERT_EQ(made->changes.size(), 1u) << "one heap of rubble is enough";
-  EXPECT_EQ(made->changes[0].to, 'r');
-  EXPECT_TRUE(isolates(made->atlas, made->demo, constraint, Purpose::kTeach));
-  EXPECT_EQ(made->atlas.domain().num_mdps(), 1u);
-  EXPECT_LE(made->changes.size(), 2u);
-  // The text is the world, and the changes are what differs.
-  const auto reading = parse_domain(made->text, "made");
-  ASSERT_TRUE(reading.domain.has_value());
-  auto rows = atlas.domain().map()->draw(made->base, std::nullopt);
-  for (const auto& change : made->changes) {
-    char& symbol =
-        rows[rows.size() - static_cast<std::size_t>(change.cell.y)][static_cast<std::size_t>(change.cell.x - 1)];
-    EXPECT_EQ(symbol, change.from);
-    symbol = change.to;
-    EXPECT_NE(change_in_words(*atlas.domain().map(), change).find(" becomes "), std::string::npos);
-  }
-  EXPECT_EQ(reading.domain->map()->draw(MdpIndex{0}, std::nullopt), rows);
-}
-
-TEST(MakeWorld, IsNothingWithoutAMapAndWhereCountsAreExpectations) {
-  const auto& icy = atlas_of(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
-  EXPECT_FALSE(can_make_worlds(icy.domain()));
-  EXPECT_FALSE(make_world(icy, "", HalfSpace{IntegerVector{-1, 0, 2}}, Purpose::kTeach).has_value());
-  auto text = empty_room();
-  const auto line = text.find("discount");
-  ASSERT_NE(line, std::string::npos);
-  text.replace(line, text.find('\n', line) - line, "discount = 0.95");
-  const Atlas atlas{parse_domain(text, "discounted").domain.value()};
-  EXPECT_FALSE(can_make_worlds(atlas.domain()));
-  EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-1, 0, 2}}, Purpose::kTeach).has_value());
-  EXPECT_TRUE(can_make_worlds(atlas_of("item-delivery").domain()));
-}
-
-TEST(MakeWorld, IsNothingWhereNoWorldWithinTheOptionsWillDo) {
-  const auto text = empty_room();
-  const Atlas atlas{parse_domain(text, "empty-room").domain.value()};
-  MakeWorldOptions options;
-  options.max_states = 2000;
-  EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-100, 0, 299}}, Purpose::kTeach, options).has_value());
-  options.max_changes = 0;
-  EXPECT_THROW(static_cast<void>(make_world(atlas, text, HalfSpace{IntegerVector{-2, 0, 5}}, Purpose::kTeach, options)),
-               std::invalid_argument);
 }
 
 }  // namespace

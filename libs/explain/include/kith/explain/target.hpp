@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
@@ -55,41 +54,5 @@ struct Isolated {
 /// @throws kith::Error (kInvalidInput, E1109) if it is neither, (kInfeasible, E1110) if the robot's weights contradict
 /// it or everybody knows it beforehand.
 [[nodiscard]] HalfSpace parse_constraint(const Atlas& atlas, const std::string& text);
-
-/// A cell of a map that was changed.
-struct CellChange {
-  Cell cell;
-  char from = ' ';
-  char to = ' ';
-};
-
-/// A world that was made for a constraint.
-struct MadeWorld {
-  std::string text;  ///< A domain file with this one world.
-  MdpIndex base;     ///< The world of the family that it was made from.
-  std::vector<CellChange> changes;
-  Atlas atlas;      ///< Of the new domain.
-  StartIndex demo;  ///< The simplest of it that isolates the constraint.
-};
-
-struct MakeWorldOptions {
-  std::size_t max_changes = 2;      ///< Cells, at least 1.
-  std::size_t max_states = 400000;  ///< Of all worlds that are tried together; bounds the time.
-};
-
-/// Whether make_world() can try: the domain has a map, and is exact.
-[[nodiscard]] bool can_make_worlds(const Domain& domain);
-
-/// Makes a world out of one of the family by changing as few cells as possible: floor, walls, terrain and stations
-/// become one another. Worlds with a demonstration that conveys the constraint among the fewest others come first.
-/// @param text  the domain file of the atlas's domain.
-/// @return nothing if no world within the options isolates the constraint, or unless can_make_worlds().
-/// @throws std::invalid_argument if an option is out of range.
-[[nodiscard]] std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text,
-                                                  const HalfSpace& constraint, Purpose purpose,
-                                                  const MakeWorldOptions& options = {});
-
-/// "rubble at (2,1) becomes floor".
-[[nodiscard]] std::string change_in_words(const GridMap& map, const CellChange& change);
 
 }  // namespace kith
