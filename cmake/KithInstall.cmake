@@ -29,15 +29,12 @@ if(TARGET kith)
     install(TARGETS kith_mpi DESTINATION ${CMAKE_INSTALL_LIBDIR}/kith COMPONENT mpi)
   endif()
   set(manual ${PROJECT_BINARY_DIR}/manual)
-  set(pages ${manual}/kith.1 ${manual}/kith.bash)
-  add_custom_command(OUTPUT ${pages}
+  add_custom_command(OUTPUT ${manual}/kith.1
     COMMAND ${CMAKE_COMMAND} -D KITH=$<TARGET_FILE:kith> -D OUTPUT_DIR=${manual}
       -P ${PROJECT_SOURCE_DIR}/cmake/WriteManual.cmake
     DEPENDS kith ${PROJECT_SOURCE_DIR}/cmake/WriteManual.cmake COMMENT "Writing the manual" VERBATIM)
-  add_custom_target(kith_manual ALL DEPENDS ${pages})
+  add_custom_target(kith_manual ALL DEPENDS ${manual}/kith.1)
   install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
-  install(FILES ${manual}/kith.bash RENAME kith COMPONENT program
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/domains ${PROJECT_SOURCE_DIR}/studies
   DESTINATION ${CMAKE_INSTALL_DATADIR}/kith COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv"

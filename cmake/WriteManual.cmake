@@ -1,7 +1,7 @@
 # cmake -D KITH=<program> -D OUTPUT_DIR=<folder> -P WriteManual.cmake
 #
-# The man pages (kith.1 and one per command) and the completion of bash, from what the program says of itself, so that
-# neither can forget a command or an option.
+# The man pages (kith.1 and one per command), from what the program says of itself, so that they can forget no command
+# and no option.
 function(ask out)
   execute_process(COMMAND ${KITH} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   set(${out} "${text}" PARENT_SCOPE)
@@ -54,6 +54,3 @@ ${rest}.SH SEE ALSO
 endforeach()
 list(JOIN see_also "\n" see_also)
 file(WRITE ${OUTPUT_DIR}/kith.1 "${page}.SH SEE ALSO\n${see_also}\n")
-
-ask(script completion bash)
-file(WRITE ${OUTPUT_DIR}/kith.bash "${script}")

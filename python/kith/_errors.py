@@ -9,7 +9,7 @@ class Diagnostic(NamedTuple):
     """One thing that is wrong with a file or a setting."""
 
     id: str
-    """Its name, such as "E0312"; `kith explain E0312` says more."""
+    """Its name, such as "E0312", which stays the same."""
     message: str
     file: str
     line: Optional[int]

@@ -35,7 +35,7 @@ struct HeadAndBody {
 /// Ends the program if the claim does not hold.
 void require(bool holds, std::string_view claim, std::string_view detail = {});
 
-/// Diagnostics are fit to be shown: an id that docs/errors.md explains, a sentence, the file, a place in its text, the
+/// Diagnostics are fit to be shown: an id, a sentence, the file, a place in its text, the
 /// line that stands there. `text` is what was read under the name `file`; diagnostics of other files have no place that
 /// could be checked.
 void require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file);

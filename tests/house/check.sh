@@ -110,12 +110,6 @@ check_citations() {  # every [key2024] cited in sources and documents is in docs
     done | none
 }
 
-check_errors() {  # every id stands for one thing
-  files docs/errors.md | search -oE '^\| [EW][0-9]{4} ' | awk -F'\\| ' '
-    $2 in first { print $2 "is explained by " first[$2] " and by " $1 }
-    { first[$2] = $1 }' | none
-}
-
 # A type has one definition: of two in one namespace the linker keeps the functions of either.
 check_types() {
   files '*.cpp' '*.hpp' | grep -E '^(libs/[a-z_]+/(include|src)|apps/[a-z_]+/src)/' | xargs -r -d '\n' awk '

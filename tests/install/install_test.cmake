@@ -67,7 +67,7 @@ endforeach()
 
 if(EXISTS ${BUILD_DIR}/bin/kith)
   run(${WORK_DIR}/prefix/bin/kith --version)
-  foreach(file share/man/man1/kith.1 share/man/man1/kith-ask.1 share/bash-completion/completions/kith share/kith/domains/item_delivery.toml)
+  foreach(file share/man/man1/kith.1 share/man/man1/kith-ask.1 share/kith/domains/item_delivery.toml)
     if(NOT EXISTS ${WORK_DIR}/prefix/${file})
       message(FATAL_ERROR "${file} was not installed")
     endif()

@@ -13,7 +13,7 @@ holds() {  # PACKAGE PATTERN...
   dpkg-deb -c "${package[0]}" >"$out/list"
   for pattern in "$@"; do grep -qE "$pattern" "$out/list" || fail "${package[0]} has no $pattern"; done
 }
-holds kith ' ./usr/bin/kith$' 'man1/kith\.1' 'bash-completion/completions/kith$' 'share/kith/domains/item_delivery\.toml$'
+holds kith ' ./usr/bin/kith$' 'man1/kith\.1' 'share/kith/domains/item_delivery\.toml$'
 holds libkith-dev 'cmake/kith/kithConfig\.cmake$' 'include/kith/bec/atlas\.hpp$' 'libkith_bec\.a$'
 [[ -e $build/lib/kith_mpi.so ]] && holds kith-mpi 'kith/kith_mpi\.so$'
 grep -q '^KITH_PYTHON:BOOL=ON' "$build/CMakeCache.txt" && holds python3-kith 'kith/__init__\.py$' 'kith/_core\..*\.so$' 'kith/py\.typed$'

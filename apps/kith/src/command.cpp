@@ -7,13 +7,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "kith/core/diagnostic.hpp"
 
 namespace kith::cli {
 namespace {
 
-// "out" for "out/" and "out/.", which completion and people write: all of them name one folder.
+// "out" for "out/" and "out/.", which shells and people write: all of them name one folder.
 std::string without_slash(std::string path) {
   const auto ends_with = [&](std::string_view end) { return path.size() > end.size() && path.ends_with(end); };
   while (ends_with("/") || ends_with("/.")) path.pop_back();
@@ -273,7 +274,6 @@ Commands all_commands() {
   add_export(commands);
   add_explain(commands);
   add_doctor(commands);
-  add_completion(commands);
   add_version(commands);
   return commands;
 }

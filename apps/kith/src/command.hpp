@@ -51,7 +51,7 @@ struct NumberRange {
 };
 inline constexpr double kLargestNumber = 1e6;
 
-/// One option, flag or positional argument, as help and completion need it.
+/// One option, flag or positional argument, as help needs it.
 struct OptionDescription {
   std::vector<std::string> names{};  ///< "-o", "--out"; for positionals the one name "STUDY".
   std::string value{};               ///< Placeholder of its value; empty for flags.
@@ -218,7 +218,6 @@ void add_analyze(Commands& commands);
 void add_ask(Commands& commands);
 void add_audit(Commands& commands);
 void add_calibrate(Commands& commands);
-void add_completion(Commands& commands);
 void add_curriculum(Commands& commands);
 void add_lesson(Commands& commands);
 void add_doctor(Commands& commands);

@@ -22,7 +22,4 @@ extern const std::string_view kLessonPage;
 extern const std::string_view kLessonFilePage;
 extern const std::string_view kLessonStudy;
 
-// docs/errors.md.
-extern const std::string_view kErrorPage;
-
 }  // namespace kith::detail

@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 const std::vector<std::string> kCommands{"init",  "validate", "inspect", "curriculum", "ask",        "find",
-                                         "teach", "study",    "serve",   "doctor",     "completion", "version"};
+                                         "teach", "study",    "serve",   "doctor", "version"};
 
 TEST(CommandLine, HasShortAndFullHelpForEveryCommand) {
   for (const auto& command : kCommands) {
@@ -54,7 +54,8 @@ TEST(CommandLine, RefusesWhatItDoesNotUnderstandWithTwo) {
       {"teach", "item-delivery"},
       {"teach", "item-delivery", "--group", "NX"},
       {"study", "quick"},
-      {"completion", "tcsh"},
+      {"completion", "bash"},
+      {"explain", "E0207"},
   };
   for (const auto& arguments : wrong) {
     const auto ran = run_kith(arguments);
@@ -200,27 +201,6 @@ TEST(Version, NamesTheBuild) {
   const auto text = run_kith({"--version"});
   EXPECT_EQ(text.code, 0);
   EXPECT_THAT(text.out, ::testing::MatchesRegex("kith [0-9.]+ \\(.+, GNU .+, .+\\)\n"));
-}
-
-TEST(Completion, WritesAScriptThatMentionsEverything) {
-  const auto ran = run_kith({"completion", "bash"});
-  ASSERT_EQ(ran.code, 0);
-  for (const auto& command : kCommands) EXPECT_THAT(ran.out, HasSubstr(command));
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("strategy"), HasSubstr("individual-low"), HasSubstr("item-delivery")));
-}
-
-// As the shell would call it: `kith study --pro<TAB>`.
-TEST(Completion, CompletesInBash) {
-  const Scratch scratch;
-  std::ofstream{scratch / "kith"} << run_kith({"completion", "bash"}).out;
-  std::ofstream{scratch / "try"}
-      << ". '" + scratch / "kith" +
-             "'\n"
-             "compopt() { :; }\n"
-             "try() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _kith; echo \"${COMPREPLY[*]}\"; }\n"
-             "try kith stu\ntry kith study --pro\ntry kith study --progress j\ntry kith teach --strategy jo\n";
-  ASSERT_EQ(std::system(("bash '" + scratch / "try" + "' >'" + scratch / "out" + "'").c_str()), 0);
-  EXPECT_EQ(text_of(scratch / "out"), "study\n--progress\njson\njoint\n");
 }
 
 TEST(Doctor, FindsThisMachineHealthy) {

@@ -56,7 +56,6 @@ TEST(Messages, HaveNullInJsonForAnUnknownPlace) {
 TEST(Messages, ListTheValuesOfAnOptionInShortHelp) {
   EXPECT_THAT(run_kith({"teach", "-h"}).out, HasSubstr("one of: baseline, individual-low"));
   EXPECT_THAT(run_kith({"inspect", "-h"}).out, HasSubstr("one of: map, policy"));
-  EXPECT_THAT(run_kith({"completion", "-h"}).out, HasSubstr("one of: bash"));
 }
 
 TEST(Transcript, ShowsTheTerrainUnderThePathAndExplainsItsSymbols) {

@@ -45,7 +45,7 @@ struct Advice {
 /// how to mend it. Lines and columns are 1-based; 0 means "the file as a whole".
 struct Diagnostic {
   Severity severity = Severity::kError;
-  std::string id{};       ///< Stable name, such as "E0312"; documented in docs/errors.md.
+  std::string id{};       ///< Stable name, such as "E0312".
   std::string message{};  ///< One sentence, lower case, no full stop.
   std::string file{};     ///< As the user named it.
   std::size_t line = 0;

@@ -52,7 +52,7 @@ enum class OtherColumns { kReject, kIgnore };
 ///
 /// @param file how diagnostics name the file.
 /// @param columns those that must be there.
-/// @return everything that is wrong (ids E0501 to E0512, docs/errors.md),
+/// @return everything that is wrong (ids E0501 to E0512),
 ///         with line, column and a hint, at most 1 000 of them and 50 of one row. A fault of the header ends the
 ///         reading.
 /// @throws std::invalid_argument if there is no column, or names are empty or repeated.
