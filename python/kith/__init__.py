@@ -23,7 +23,7 @@ from ._kinds import Learner, Strategy, strategies
 from ._records import (Component, Counts, Demonstration, Feedback, HalfSpace, Lesson, Path, Period, Start, Test, Verdict,
                        World)
 from ._session import People, Session
-from ._study import Analysis, Finding, Report, Run, Tables, audit, calibrate, fit, power, resolve, study
+from ._study import Analysis, Finding, Report, Run, Tables, audit, fit, power, resolve, study
 from ._teach import Record, Transcript, replay, teach
 from ._core import program as _program
 
@@ -38,7 +38,7 @@ __all__ = [
     "Analysis", "Component", "Cone", "Counts", "Demonstration", "Diagnostic", "Domain", "Error", "Explanation",
     "Feedback", "Finding", "HalfSpace", "Learner", "LearnerStart", "Lesson", "ParticleBelief", "Path", "People",
     "Period", "RandomStream", "Record", "Report", "Run", "Session", "Start", "Strategy", "Tables", "TeachingEnv",
-    "Test", "Transcript", "Unit", "Verdict", "View", "Warning", "World", "audit", "calibrate", "explain_policy",
+    "Test", "Transcript", "Unit", "Verdict", "View", "Warning", "World", "audit", "explain_policy",
     "fit", "power", "region", "replay", "resolve", "strategies", "study", "teach",
 ]
 

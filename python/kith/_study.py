@@ -344,22 +344,3 @@ def power(study: StudySource, *effects: str, teams: Sequence[int] = (5, 10, 15, 
     finally:
         inputs.close()
     return document
-
-
-def calibrate(study: StudySource, targets: Union[str, os.PathLike[str]], *, rounds: int = 3, points: int = 64, teams: int = 40,
-              confirm_teams: int = 200, seed: int = 1, threads: int = 0, progress: Progress = "auto",
-              domain: Optional[Domain] = None, **settings: Any) -> dict[str, Any]:
-    """Fits the free parameters of a study to published figures: the path of a targets file.
-
-    Its "settings" are the study's keys with the values found, and "parameters" has their 95 % intervals.
-    """
-    inputs = _Inputs(study, settings, domain, (), {})
-    file = FilePath(targets)
-    try:
-        with Bar(progress, "calibrating") as bar:
-            document: dict[str, Any] = json.loads(
-                _core.calibrate(inputs.name, inputs.text, inputs.overrides, file.read_text(encoding="utf-8"), str(file), rounds,
-                                points, teams, confirm_teams, seed, threads, bar.callback))
-    finally:
-        inputs.close()
-    return document

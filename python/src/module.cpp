@@ -1,9 +1,5 @@
 #include "binding.hpp"
 
-namespace kith::python {
-void bind_calibration(py::module_& module);  // in calibration.cpp
-}
-
 PYBIND11_MODULE(_core, module) {
   using namespace kith::python;
   module.doc() = "kith's libraries; use the package kith.";
@@ -19,5 +15,4 @@ PYBIND11_MODULE(_core, module) {
   bind_study(module);
   bind_tables(module);
   bind_results(module);
-  bind_calibration(module);
 }

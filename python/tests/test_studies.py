@@ -145,12 +145,6 @@ class Runs(unittest.TestCase):
         with self.assertRaises(kith.Error):
             kith.fit(self.folder / "nothing")
 
-    def test_parameters_are_calibrated(self):
-        studies = SOURCE / "studies"
-        found = kith.calibrate(studies / "paper-uncalibrated.toml", studies / "paper-targets.toml", rounds=1, points=32,
-                               teams=2, confirm_teams=2, progress=False)
-        self.assertTrue(found["targets"] and all("=" in one for one in found["settings"]))
-
     def test_a_study_is_written_out(self):
         text = kith.resolve("quick", **SMALL)
         self.assertRegex(text, r"particles *= *200")

@@ -2,7 +2,6 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { study } from './runs.mjs';
-import { calibrationClaims, calibrationFigures, calibrationQuotes } from './calibration_figures.mjs';
 import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
 import {
   errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared,
@@ -42,7 +41,6 @@ export const COMMANDS = {
   ...Object.fromEntries(
     DOMAINS.map((domain) => [`analysis, ${domain}`, ['analyze', `DIR(${domain})`, '--contrast', COMMON, '--json']]),
   ),
-  calibration: ['calibrate', 'studies/paper-uncalibrated.toml', '--targets', 'studies/paper-targets.toml', '--json'],
   'findings, paired': ['power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--json'],
   'findings, unpaired': [
     'power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--set', 'design.pairing="none"', '--json',
@@ -304,7 +302,6 @@ export function makeContent(runs, source) {
     'range.difference': () => withError(large('periods', 'range difference'), 2, signed),
     'agreement.paired': () => ({ text: fixed(runs.json('findings, paired').replication.mean_agreement, 1), value: runs.json('findings, paired').replication.mean_agreement }),
     'agreement.unpaired': () => ({ text: fixed(runs.json('findings, unpaired').replication.mean_agreement, 1), value: runs.json('findings, unpaired').replication.mean_agreement }),
-    ...calibrationFigures(runs),
     'reference.knowledge': () => {
       const gaps = ['0.9', '1.0'].flatMap((scale) =>
         Object.keys(POOLS).map((teams) => reference.study[scale][`knowledge ${teams}`][0] - summary(`scale ${scale}`, 'knowledge')[`mean ${teams}`].value),
@@ -317,7 +314,6 @@ export function makeContent(runs, source) {
   const orderOf = (value) => GROUP.map((strategy) => [strategy, value(strategy)]).sort((a, b) => a[1] - b[1]).map(([strategy]) => strategy);
   const insignificant = (outcome, name) => termWithin(outcome, name).p_value > 0.05;
   const claims = {
-    ...calibrationClaims(runs),
     'facts-agree': () => Object.entries(reference.facts).every(([name, value]) => factsHere()[name] === value),
     'reference-periods-agree': () =>
       ['0.9', '1.0'].every((scale) =>
@@ -373,12 +369,6 @@ export function makeContent(runs, source) {
       ),
     'ranges-agree': () => Math.abs(large('periods', 'range difference').value) < 1.96 * large('periods', 'range difference').se,
     'all-complete': () => runs.table('large', 'teams').every((row) => row.status === 'complete'),
-    'eta-and-scale-matter': () =>
-      runs.json('calibration').targets.slice(0, 4).every(({ sensitivity }) => {
-        const share = (name) => sensitivity[name].total_share;
-        const others = Object.keys(sensitivity).filter((name) => !['eta', 'ability scale'].includes(name));
-        return share('eta') + share('ability scale') > 0.9 && others.every((name) => share(name) < 0.1);
-      }),
     'powers-agree': () =>
       runs.json('findings, paired').replication.findings.every(
         ({ analytic_power: byF, imposed_power: imposed }) => byF === null || imposed === null || Math.abs(byF - imposed.power) < 0.05,
@@ -403,6 +393,16 @@ export function makeContent(runs, source) {
     const [, deviation, outcome, teams] = /^(sd of )?(\w+), (\w+)$/.exec(name);
     return summary('large', outcome)[`${deviation ? 'sd' : 'mean'} ${teams}`].value;
   };
-  const quotes = { 'studies/paper.toml': () => calibrationQuotes(runs, named) };
+  const before = (outcome, statistic, teams) => summary('scale 1.0', outcome)[`${statistic} ${teams}`].value;
+  const least = ({ value, tolerance, within_factor: factor }) => (factor ? value / factor : value - tolerance);
+  const quotes = {
+    'studies/paper.toml': () => [
+      `take ${fixed(before('periods', 'mean', 'baseline'), 1)} periods (at least ${fixed(least(target('periods', 'mean', 'baseline')), 2)} ` +
+        `are asked for), and the standard deviation of the groups' knowledge is ${fixed(before('knowledge', 'sd', 'group'), 3)} ` +
+        `(at least ${fixed(least(target('knowledge', 'sd', 'group')), 3)}).`,
+      `Here they are ${fixed(named('periods, baseline'), 1)} and ${fixed(named('sd of knowledge, group'), 3)}, and the groups take ` +
+        `${fixed(named('periods, group'), 2)} periods (published: ${target('periods', 'mean', 'group').value}).`,
+    ],
+  };
   return { tables, figures, claims, quotes };
 }

@@ -263,7 +263,6 @@ Commands all_commands() {
   add_status(commands);
   add_verify(commands);
   add_merge(commands);
-  add_calibrate(commands);
   add_power(commands);
   add_analyze(commands);
   add_report(commands);

@@ -219,7 +219,7 @@ class Inspection {
     constexpr std::size_t kTeams = 300;
     out_ += fmt::format("  {} of two novices and a proficient learner, strategy common\n",
                         work_text(*atlas_, spec, 0, kTeams));
-    out_ += "  kith fit, power and calibrate say how long they take before they begin\n";
+    out_ += "  kith fit and power say how long they take before they begin\n";
   }
 
   // Said here, not in the eighth hour.

@@ -13,30 +13,6 @@
 
 namespace kith::cli {
 
-StudyText::StudyText(const std::string& name, std::vector<std::string> overrides)
-    : name_{name}, overrides_{std::move(overrides)} {
-  const auto& known = built_in_studies();
-  const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
-  if (built_in != known.end()) {
-    text_ = built_in->text;
-  } else if (std::error_code failure; name == "-" || std::filesystem::exists(name, failure)) {
-    auto input = read_input(name);
-    name_ = input.name;
-    text_ = std::move(input.text);
-    folder_ = input.folder;
-  } else {
-    (void)study_of(name, {});  // says what is wrong
-  }
-  const auto reading = read({});
-  if (!reading.study) throw Error{reading.diagnostics};
-}
-
-StudyReading StudyText::read(const std::vector<std::string>& overrides) const {
-  auto all = overrides_;
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return parse_study(text_, name_, {all, folder_});
-}
-
 void check_single_variant(const std::string& name, const Study& study) {
   if (study.variants.size() == 1 && study.variants.front().factors.empty()) return;
   throw Error{{Diagnostic{
@@ -64,11 +40,11 @@ std::string work_text(const Atlas& atlas, const StudySpec& spec, std::size_t thr
   return fmt::format("simulating {} teams takes {}{}", teams, seconds < 1.0 ? "" : "about ", duration_text(seconds));
 }
 
-TargetSet targets_of(const std::string& file, const StudyText& study) {
+std::vector<PublishedFinding> findings_of(const std::string& file, const StudySpec& spec) {
   const auto input = read_input(file);
-  auto reading = parse_targets(input.text, input.name, [&](const auto& overrides) { return study.read(overrides); });
-  if (!reading.targets) throw Error{reading.diagnostics};
-  return *std::move(reading.targets);
+  auto reading = parse_findings(input.text, input.name, spec);
+  if (!reading.findings) throw Error{reading.diagnostics};
+  return *std::move(reading.findings);
 }
 
 }  // namespace kith::cli

@@ -218,13 +218,13 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   return 0;
 }
 
-int run_replication(const PowerCommandOptions& options, const Study& study, const StudyText& source, const Atlas& atlas,
-                    Progress& progress, Console& console) {
+int run_replication(const PowerCommandOptions& options, const Study& study, const Atlas& atlas, Progress& progress,
+                    Console& console) {
   auto spec = study.variants.front();
   if (options.teams.size() > 1) refuse("--findings repeats a study of one size, so --teams takes one number");
   if (!options.teams.empty()) spec.replicates = options.teams.front();
-  const auto set = targets_of(options.findings, source);
-  if (set.findings.empty())
+  const auto findings = findings_of(options.findings, spec);
+  if (findings.empty())
     throw Error{{Diagnostic{.id = "E0813", .message = "there is no [[finding]]", .file = options.findings}}};
   ReplicationOptions replication;
   replication.studies = options.studies;
@@ -236,7 +236,7 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
     const auto teams = spec.replicates * spec.strategies.size() * spec.compositions.size() * replication.studies;
     console.info(work_text(atlas, spec, options.threads, teams));
   }
-  const auto result = replicate_findings(atlas, spec, set.findings, replication);
+  const auto result = replicate_findings(atlas, spec, findings, replication);
   progress.finish();
   if (!result) return interrupted("interrupted; there is no result", console);
   if (console.json()) {
@@ -245,11 +245,11 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
                          {"seed", replication.seed},
                          {"teams_per_cell", spec.replicates},
                          {"paired", options.paired}};
-    document["replication"] = replication_json(set.findings, *result);
+    document["replication"] = replication_json(findings, *result);
     console.print_json(document);
     return 0;
   }
-  console.print(replication_text(set.findings, *result, spec, console) +
+  console.print(replication_text(findings, *result, spec, console) +
                 replication_assumptions(spec, options.paired, console));
   return 0;
 }
@@ -286,14 +286,13 @@ void declare(OptionList& list, PowerCommandOptions& options) {
 }
 
 int run(const PowerCommandOptions& options, Console& console) {
-  const StudyText source{options.study, options.set};
-  const auto reading = source.read({});
+  const auto reading = study_of(options.study, options.set);
   if (!console.quiet()) show_warnings(reading, console);
   check_single_variant(options.study, *reading.study);
   watch_signals();
   const Atlas atlas = planned(*reading.domain, console);
   Progress progress{options.progress, console};
-  if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
+  if (!options.findings.empty()) return run_replication(options, *reading.study, atlas, progress, console);
   return run_curves(options, reading, atlas, progress, console);
 }
 

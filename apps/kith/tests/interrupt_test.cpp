@@ -127,8 +127,7 @@ TEST(InterruptSlow, EndsEveryCommandOnALargeMap) {
                                                        {"export", map, "--to", "json"},
                                                        {"teach", map, "--group", "NN"},
                                                        {"study", study, "-o", scratch / "run"},
-                                                       {"power", study},
-                                                       {"calibrate", study}};
+                                                       {"power", study}};
   for (const auto& command : commands) {
     for (const int milliseconds : {300, 3000}) {
       Child child{start_kith(command, {}, scratch / "in", scratch / "out", scratch / "err")};

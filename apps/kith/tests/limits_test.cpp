@@ -62,12 +62,8 @@ TEST(Limits, APoolOfTeamsFitsIntoMemory) {
   expect_refusal(ran, 4, "", "keeping the outcomes of 2000000 teams and teaching on");
 }
 
-// Said before the search of hours that comes first.
-TEST(Limits, TheLargestBatchOfACalibrationFitsIntoMemory) {
+TEST(Limits, TheTeamsOfAReplicationFitIntoMemory) {
   const auto targets = std::string{KITH_SOURCE_DIR} + "/studies/paper-targets.toml";
-  const auto calibration =
-      run_kith({"calibrate", "paper", "--targets", targets, "--teams", "2", "--confirm", "1000000"}, memory("500M"));
-  expect_refusal(calibration, 4, "", "teams and teaching on");
   const auto replication = run_kith({"power", "paper", "--findings", targets, "--studies", "100000"}, memory("500M"));
   expect_refusal(replication, 4, "", "teams and teaching on");
 }
@@ -96,7 +92,6 @@ TEST(Limits, OfNumbersOnTheCommandLine) {
       {{"power", "quick", "--pool", "1000001"}, "--pool must be an integer from 4 to 1000000"},
       {{"power", "quick", "--draws", "1000001"}, "--draws must be an integer from 10 to 1000000"},
       {{"power", "quick", "--studies", "100001"}, "--studies must be an integer from 2 to 100000"},
-      {{"calibrate", "quick", "--teams", "100001"}, "--teams must be an integer from 2 to 100000"},
       {{"fit", "x", "--types", "7"}, "--types must be an integer from 1 to 6"},
       {{"fit", "x", "--replicates", "1001"}, "--replicates must be an integer from 1 to 1000"},
       {{"teach", "item-delivery", "--seed", "9999999999999999999"},

@@ -1,4 +1,4 @@
-// kith calibrate and kith power.
+// kith power.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -9,8 +9,6 @@ namespace kith::testing {
 namespace {
 
 constexpr const char* kTarget = "[[target]]\nquantity = \"periods\"\nteams = \"group\"\nvalue = 6.0\ntolerance = 0.5\n";
-constexpr const char* kParameter =
-    "[[parameter]]\nname = \"scale\"\nkeys = [\"learner.*.ability_scale\"]\nmin = 0.7\nmax = 1.4\n";
 constexpr const char* kFinding = "[[finding]]\neffect = \"periods: group - baseline\"\nsignificant = true\n";
 
 std::string file_with(const Scratch& scratch, const std::string& name, const std::string& content) {
@@ -19,7 +17,7 @@ std::string file_with(const Scratch& scratch, const std::string& name, const std
   return path;
 }
 
-// Beliefs of 100 particles: a calibration in a moment.
+// Beliefs of 100 particles: a study in a moment.
 const std::vector<std::string> kSmall{"--set", "teacher.particles=100",  "--set", "learner.N.particles=100",
                                       "--set", "learner.P.particles=100"};
 
@@ -28,73 +26,10 @@ Ran run_small(std::vector<std::string> arguments) {
   return run_kith(arguments);
 }
 
-TEST(CalibrateCommand, WritesAStudyThatIsValid) {
-  const Scratch scratch;
-  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
-  const auto out = scratch / "out.toml";
-  const std::vector<std::string> arguments{"calibrate", "quick",     "--targets", targets, "--quick", "--teams",
-                                           "2",         "--confirm", "3",         "-o",    out};
-  const auto ran = run_small(arguments);
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("parameter"), HasSubstr("periods of group, mean")));
-  EXPECT_THAT(text_of(out),
-              AllOf(HasSubstr("# parameter"), HasSubstr("ability_scale = "), HasSubstr("id = \"quick-calibrated\"")));
-  // Six periods within 0.5 cannot be confirmed with three teams per cell.
-  EXPECT_THAT(ran.out, HasSubstr("For 1 of 1 targets the standard error is larger than half the tolerance"));
-  EXPECT_EQ(run_kith({"validate", out}).code, 0);
-  const auto again = run_small(arguments);
-  EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("add --yes to replace it"));
-}
-
-TEST(CalibrateCommand, PrintsOneDocumentTheSameOnAnyNumberOfThreads) {
-  const Scratch scratch;
-  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
-  const std::vector<std::string> arguments{"calibrate", "quick",     "--targets", targets,  "--quick", "--teams",
-                                           "2",         "--confirm", "3",         "--json", "-j",      "1"};
-  const auto one = run_small(arguments);
-  auto more = arguments;
-  more.back() = "3";
-  ASSERT_EQ(one.code, 0) << one.err;
-  EXPECT_EQ(one.out, run_small(more).out);
-  const auto document = Json::parse(one.out);
-  EXPECT_EQ(document["schema"], "kith.calibration/1");
-  ASSERT_EQ(document["parameters"].size(), 1u);
-  EXPECT_LE(document["parameters"][0]["low"], document["parameters"][0]["value"]);
-  EXPECT_GE(document["parameters"][0]["high"], document["parameters"][0]["value"]);
-  EXPECT_EQ(document["targets"].size(), 1u);
-  EXPECT_GE(document["discrepancy"], 0.0);
-  EXPECT_TRUE(document["best"]["targets"][0]["misfit"].is_number());
-  EXPECT_GE(document["candidates"].size(), 2u);
-}
-
-TEST(CalibrateCommand, SaysWhatIsMissing) {
-  const Scratch scratch;
-  const auto empty = file_with(scratch, "empty.toml", kTarget);
-  EXPECT_THAT(run_kith({"calibrate", "quick"}).err, HasSubstr("needs --targets FILE"));
-  const auto nothing = run_kith({"calibrate", "quick", "--targets", empty});
-  EXPECT_EQ(nothing.code, 3);
-  EXPECT_THAT(nothing.err, AllOf(HasSubstr("E0811"), HasSubstr("no [[parameter]]")));
-  const auto wrong = run_kith({"calibrate", "quick", "--targets", file_with(scratch, "w.toml", "[[target]]\nx = 1\n")});
-  EXPECT_EQ(wrong.code, 3);
-  EXPECT_THAT(wrong.err, HasSubstr("w.toml:3:1: error[E0107]"));
-  EXPECT_EQ(run_kith({"calibrate", "quick", "--targets", scratch / "none.toml"}).code, 5);
-  EXPECT_EQ(run_kith({"calibrate", "no-such-study", "--targets", empty}).code, 3);
-  EXPECT_THAT(run_kith({"calibrate", "quick", "--targets", empty, "-o", empty, "--yes"}).err,
-              HasSubstr("must not be the input"));
-}
-
-TEST(CalibrateCommand, RefusesAStudyWhoseKeysVary) {
-  const Scratch scratch;
-  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
-  for (const auto& arguments : {std::vector<std::string>{"calibrate", "quick", "--targets", targets},
-                                std::vector<std::string>{"power", "quick"}}) {
-    auto all = arguments;
-    all.insert(all.end(), {"--set", "design.vary={\"stop.max_periods\"=[5,9]}"});
-    const auto ran = run_kith(all);
-    EXPECT_EQ(ran.code, 3);
-    EXPECT_THAT(ran.err, HasSubstr("E0812"));
-  }
+TEST(PowerCommand, RefusesAStudyWhoseKeysVary) {
+  const auto ran = run_kith({"power", "quick", "--set", "design.vary={\"stop.max_periods\"=[5,9]}"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("E0812"));
 }
 
 TEST(PowerCommand, DrawsACurveAndPrintsADocument) {
@@ -146,22 +81,14 @@ TEST(PowerCommand, RepeatsAStudy) {
   EXPECT_THAT(ran.out, AllOf(HasSubstr("3 study runs"), HasSubstr("All findings as published")));
 }
 
-// Both commands say how much there is to do before they begin; how long it takes is for people only.
-TEST(PlanningCommands, SayHowLongTheyTake) {
+// It says how much there is to do before it begins; how long it takes is for people only.
+TEST(PowerCommand, SaysHowLongItTakes) {
   const auto power = run_small({"power", "quick", "--teams", "3", "--pool", "12", "--draws", "20"});
   EXPECT_THAT(power.err, HasSubstr("simulating 24 teams takes "));
   const Scratch scratch;
   const auto findings = file_with(scratch, "findings.toml", kFinding);
   EXPECT_THAT(run_small({"power", "quick", "--findings", findings, "--studies", "3"}).err,
               HasSubstr("simulating 18 teams takes "));
-  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
-  const std::vector<std::string> calibrate{"calibrate", "quick", "--targets", targets, "--quick",
-                                           "--teams",   "2",     "--confirm", "3"};
-  // Two designs of 36 settings with 2 teams each, 5 candidates with 3, 5 points of the frontier with 2; two cells.
-  EXPECT_THAT(run_small(calibrate).err, HasSubstr("at most: simulating 338 teams takes "));
-  auto quiet = calibrate;
-  quiet.emplace_back("-q");
-  EXPECT_EQ(run_small(quiet).err, "");
 }
 
 TEST(PowerCommand, SaysWhatIsWrong) {

@@ -36,7 +36,7 @@ struct PeriodOfLearners {
   std::vector<std::optional<double>> abilities;  ///< Per member, while watching.
 };
 
-/// One interaction period of simulated learners: the loop that studies, transcripts, calibration, power and tests
+/// One interaction period of simulated learners: the loop that studies, transcripts, power and tests
 /// share. The learners watch the lesson that Session::propose() chose, answer its tests and hear the feedback. Members
 /// who are away do nothing.
 ///

@@ -9,7 +9,7 @@
 
 #include "kith/bec/atlas.hpp"
 #include "kith/study/study.hpp"
-#include "kith/study_design/targets.hpp"
+#include "kith/study_design/findings.hpp"
 
 namespace kith {
 
