@@ -38,8 +38,8 @@ def simulate(point, teams, seed):
     for parameter, unit in zip(parameters, point):
         for key in parameter["keys"]:
             settings.update({key.replace("*", letter): on_scale(parameter, unit) for letter in letters})
-    table = kith.study(args.study, progress=False, **settings).tables["teams"]
-    return np.array([figure_of(target, table) for target in targets])
+    run = kith.study(args.study, progress=False, **settings)  # its tables go when it does
+    return np.array([figure_of(target, run.tables["teams"]) for target in targets])
 
 
 def figure_of(target, teams):

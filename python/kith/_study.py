@@ -306,13 +306,13 @@ def resolve(study: StudySource, *, domain: Optional[Domain] = None, strategies: 
         inputs.close()
 
 
-def fit(*logs: Union[str, os.PathLike[str], Run], method: str = "likelihood", answers: str = "path", types: int = 0,
+def fit(*logs: Union[str, os.PathLike[str], Run], answers: str = "path", types: int = 0,
         folds: int = 5, replicates: int = 2, seed: int = 1, threads: int = 0, progress: Progress = "auto") -> dict[str, Any]:
     """How people learn, from what they saw and answered: runs, tables of trials. The document kith.fit/1."""
     names = [str(log.folder) if isinstance(log, Run) else os.fspath(log) for log in logs]
     with Bar(progress, "fitting") as bar:
         document: dict[str, Any] = json.loads(
-            _core.fit(names, method, answers, types, folds, replicates, seed, threads, bar.callback))
+            _core.fit(names, answers, types, folds, replicates, seed, threads, bar.callback))
     return document
 
 

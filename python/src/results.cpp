@@ -13,7 +13,6 @@
 #include "kith/core/parallel.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/fit/answer_regions.hpp"
-#include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/fit/recovery.hpp"
 #include "kith/present/audit_people.hpp"
@@ -97,10 +96,8 @@ std::string report(const std::string& folder, bool as_page) {
   });
 }
 
-std::string fit(const std::vector<std::string>& logs, const std::string& method, const std::string& answers,
-                std::size_t types, std::size_t folds, std::size_t replicates, std::uint64_t seed, std::size_t threads,
-                const py::object& on_progress) {
-  if (method != "likelihood" && method != "grid") throw py::value_error{"method must be 'likelihood' or 'grid'"};
+std::string fit(const std::vector<std::string>& logs, const std::string& answers, std::size_t types, std::size_t folds,
+                std::size_t replicates, std::uint64_t seed, std::size_t threads, const py::object& on_progress) {
   if (answers != "path" && answers != "verdict") throw py::value_error{"answers must be 'path' or 'verdict'"};
   if (types > 6 || folds > 1000 || replicates < 1 || replicates > 1000)
     throw py::value_error{"types must be at most 6, folds at most 1000 and replicates 1 to 1000"};
@@ -109,33 +106,20 @@ std::string fit(const std::vector<std::string>& logs, const std::string& method,
   return wait_for(watch, on_progress, [&] {
     const auto detail = answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict;
     auto imported = import_logs({logs.begin(), logs.end()}, detail);
-    if (!imported.accuracy.empty()) {
-      if (method == "grid")
-        throw Error{ErrorKind::kUsage, "these logs do not tell what people saw", Remedy::kLikelihoodMethod};
-      return cli::to_json(fit_accuracy(imported.accuracy)).dump();
-    }
     const ParallelOptions parallel{.threads = threads, .on_progress = [&](std::size_t done, std::size_t total) {
                                      watch.tell(done, total);
                                      return !watch.stop;
                                    }};
-    if (!find_answer_regions(imported.logs, {.detail = detail, .seed = seed, .parallel = parallel})) throw Stopped{};
-    if (method == "grid") {
-      auto people = imported.logs;
-      for (auto& model : people.models) model.parameters.set("process_noise", 0.0);
-      const auto table =
-          log_likelihoods(people, published_grid(), {.replicates = replicates, .seed = seed, .parallel = parallel});
-      if (!table.complete) throw Stopped{};
-      return cli::to_json(grid_search(people, table)).dump();
-    }
+    if (!find_answer_regions(imported, {.detail = detail, .seed = seed, .parallel = parallel})) throw Stopped{};
     FitOptions options;
     options.replicates = replicates;
     options.seed = seed;
     options.num_types = types;
     options.folds = folds;
     options.parallel = parallel;
-    const auto found = fit_learners(imported.logs, options);
+    const auto found = fit_learners(imported, options);
     if (!found.complete) throw Stopped{};
-    return cli::to_json(found, recovery(imported.logs, found), imported.logs.notes).dump();
+    return cli::to_json(found, recovery(imported, found), imported.notes).dump();
   });
 }
 
@@ -260,7 +244,7 @@ void bind_results(py::module_& module) {
   module.def("analyze", &analyze, py::arg("folder"), py::arg("model"), py::arg("table"), py::arg("alpha"),
              py::arg("correction"), py::arg("permutations"), py::arg("seed"), py::arg("contrasts"), py::arg("by"));
   module.def("report", &report, py::arg("folder"), py::arg("as_page"));
-  module.def("fit", &fit, py::arg("logs"), py::arg("method"), py::arg("answers"), py::arg("types"), py::arg("folds"),
+  module.def("fit", &fit, py::arg("logs"), py::arg("answers"), py::arg("types"), py::arg("folds"),
              py::arg("replicates"), py::arg("seed"), py::arg("threads"), py::arg("on_progress"));
   module.def("audit", &audit, py::arg("folder"), py::arg("team"), py::arg("room"), py::arg("forgetting"),
              py::arg("threads"), py::arg("on_progress"));

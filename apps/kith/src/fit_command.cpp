@@ -10,13 +10,9 @@
 #include "fit_output.hpp"
 #include "interrupt.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "kith/fit/accuracy.hpp"
 #include "kith/fit/answer_regions.hpp"
 #include "kith/fit/fit.hpp"
-#include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
-#include "kith/fit/kinds_fit.hpp"
-#include "kith/fit/predict_answers.hpp"
 #include "kith/present/json.hpp"
 #include "page.hpp"
 #include "planning_input.hpp"
@@ -26,16 +22,14 @@ namespace kith::cli {
 namespace {
 
 struct FitCommandOptions {
-  std::vector<std::string> logs;  ///< Run folders, tables of trials, or the tables of 2021.
-  std::string method = "likelihood";
-  std::string answers = "path";  ///< What of an answer counts: "path" or "verdict".
-  std::string out;               ///< File for the JSON result; empty: none.
-  std::size_t types = 0;         ///< Types without labels; 0: as labelled.
-  std::size_t folds = 5;         ///< Of the cross-validation; 0: none.
-  std::size_t replicates = 2;    ///< Runs of the filter per person.
+  std::vector<std::string> logs;  ///< Run folders and tables of trials.
+  std::string answers = "path";   ///< What of an answer counts: "path" or "verdict".
+  std::string out;                ///< File for the JSON result; empty: none.
+  std::size_t types = 0;          ///< Types without labels; 0: as labelled.
+  std::size_t folds = 5;          ///< Of the cross-validation; 0: none.
+  std::size_t replicates = 2;     ///< Runs of the filter per person.
   std::uint64_t seed = 1;
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
-  bool predict = false;     ///< Compare models by how well they predict the next answer.
   bool yes = false;         ///< Replace an existing file.
   ProgressMode progress = ProgressMode::kAuto;
 };
@@ -47,18 +41,12 @@ int finish(const FitCommandOptions& options, const Json& document, const std::st
   return 0;
 }
 
-// Learning goes on without process noise in the published search.
-ResponseLogs without_noise(ResponseLogs logs) {
-  for (auto& model : logs.models) model.parameters.set("process_noise", 0.0);
-  return logs;
-}
-
 // "computing the likelihood of 60 people takes about 12 s", from the time that one run takes for a few of them and two
 // of the abilities. Cost is proportional to people, runs and abilities.
 std::string likelihood_work_text(const ResponseLogs& logs, const ParameterGrid& grid, LikelihoodOptions options) {
   const auto threads = options.parallel.threads > 0 ? options.parallel.threads : std::thread::hardware_concurrency();
   const auto few = std::clamp<std::size_t>(threads, 1, logs.people.size());
-  ResponseLogs probe{.people = {}, .models = logs.models, .policy = logs.policy, .sample = {}, .notes = {}};
+  ResponseLogs probe{.people = {}, .models = logs.models, .sample = {}, .notes = {}};
   for (std::size_t i = 0; i < few; ++i) probe.people.push_back(logs.people[i * logs.people.size() / few]);
   auto coarse = grid;
   const auto n = grid.abilities.size();
@@ -75,12 +63,6 @@ std::string likelihood_work_text(const ResponseLogs& logs, const ParameterGrid& 
                      duration_text(took.count() * runs / share));
 }
 
-std::optional<std::vector<GridSearchGroup>> search_grid(const ResponseLogs& logs, const LikelihoodOptions& options) {
-  const auto table = log_likelihoods(logs, published_grid(), options);
-  if (!table.complete) return std::nullopt;
-  return grid_search(logs, table);
-}
-
 // Which weights give the answers of people, where no tables say it. False if it was interrupted.
 bool sample_paths(ResponseLogs& logs, const FitCommandOptions& options, AnswerDetail detail, Console& console) {
   const auto num_notes = logs.notes.size();
@@ -95,9 +77,7 @@ bool sample_paths(ResponseLogs& logs, const FitCommandOptions& options, AnswerDe
 }
 
 void declare(OptionList& list, FitCommandOptions& options) {
-  list.texts("logs", options.logs, "LOGS", "Run folders, tables with a row per trial, or the tables of 2021")
-      .required();
-  list.word("--method", options.method, "HOW", {"likelihood", "grid", "kinds"}, "How to fit");
+  list.texts("logs", options.logs, "LOGS", "Run folders and tables with a row per trial").required();
   list.word("--answers", options.answers, "WHAT", {"path", "verdict"},
             "What of an answer counts: the path, or whether it is right");
   list.integer("--types", options.types, {1, 6}, "Types of people without labels (default: as labelled)");
@@ -106,76 +86,28 @@ void declare(OptionList& list, FitCommandOptions& options) {
   list.integer("--seed", options.seed, {}, "Seed of all random streams");
   list.threads(options.threads, "; never changes a result");
   list.text("-o,--out", options.out, "FILE", "Write the result to this file, as JSON");
-  list.flag("--predict", options.predict,
-            "Predict each answer of the tables of 2021 from those before, by several models");
   list.flag("--yes", options.yes, "Replace the file of -o if there is one");
   list.progress(options.progress);
   list.json();
 }
 
-int predict(const FitCommandOptions& options, Console& console) {
-  const std::filesystem::path folder{options.logs.front()};
-  const auto responses = folder / "lee2021_test_responses.csv";
-  std::error_code ignored;
-  if (options.logs.size() > 1 || !std::filesystem::exists(responses, ignored)) {
-    refuse("--predict needs the folder with the tables of 2021, and nothing else");
-  }
-  watch_signals();
-  Progress progress{options.progress, console, "people"};
-  const auto report =
-      predict_answers(read_lee2021_worlds(folder / "lee2021_test_mdps.jsonl"), read_lee2021_responses(responses),
-                      {.threads = options.threads, .on_progress = progress.until_stopped()});
-  progress.finish();
-  if (!report.complete) return interrupted("interrupted; nothing was written", console);
-  return finish(options, to_json(report), text_of(report, console), console);
-}
-
 int run(const FitCommandOptions& options, Console& console) {
   require_replaceable(options.out, options.yes);
   const auto detail = options.answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict;
-  if (options.predict) return predict(options, console);
-  const bool asks_for_kinds = options.method == "kinds";
-  const auto imported = import_logs({options.logs.begin(), options.logs.end()}, detail,
-                                    asks_for_kinds ? PeopleRead::kAnyKind : PeopleRead::kBayesian);
-  if (!console.quiet()) console.show(imported.logs.notes);
-  if (!imported.accuracy.empty()) {
-    if (options.method != "likelihood") {
-      refuse("--method " + options.method +
-             " needs logs that tell what people saw; these tell only what they answered");
-    }
-    const auto fit = fit_accuracy(imported.accuracy);
-    return finish(options, to_json(fit), text_of(fit, console), console);
-  }
-
+  auto logs = import_logs({options.logs.begin(), options.logs.end()}, detail);
+  if (!console.quiet()) console.show(logs.notes);
   watch_signals();
   Progress progress{options.progress, console, "replays"};
   const ParallelOptions parallel{.threads = options.threads, .on_progress = progress.until_stopped()};
   const LikelihoodOptions how{.replicates = options.replicates, .seed = options.seed, .parallel = parallel};
-  if (asks_for_kinds) {
-    const auto report =
-        fit_kinds(imported.logs, {.replicates = options.replicates, .seed = options.seed, .parallel = parallel});
-    progress.finish();
-    if (!report.complete) return interrupted("interrupted; nothing was written", console);
-    return finish(options, to_json(report), text_of(report, console), console);
-  }
-  auto logs = imported.logs;
   if (!sample_paths(logs, options, detail, console)) return interrupted("interrupted; nothing was written", console);
-  const bool says_time = !console.quiet() && !logs.people.empty();
-  if (options.method == "grid") {
-    const auto quiet_logs = without_noise(logs);
-    if (says_time) console.info(likelihood_work_text(quiet_logs, published_grid(), how));
-    const auto groups = search_grid(quiet_logs, how);
-    progress.finish();
-    if (!groups) return interrupted("interrupted; nothing was written", console);
-    return finish(options, to_json(*groups), text_of(*groups, console), console);
-  }
   FitOptions fit_options;
   fit_options.replicates = options.replicates;
   fit_options.seed = options.seed;
   fit_options.num_types = options.types;
   fit_options.folds = options.folds;
   fit_options.parallel = parallel;
-  if (says_time) console.info(likelihood_work_text(logs, grid_of(fit_options), how));
+  if (!console.quiet() && !logs.people.empty()) console.info(likelihood_work_text(logs, grid_of(fit_options), how));
   const auto report = fit_learners(logs, fit_options);
   progress.finish();
   if (!report.complete) return interrupted("interrupted; nothing was written", console);
@@ -186,10 +118,9 @@ int run(const FitCommandOptions& options, Console& console) {
 }  // namespace
 
 void add_fit(Commands& commands) {
-  commands.add<FitCommandOptions>(
-      "fit", "Estimate how people learn from what they saw and answered",
-      {"kith fit results/paper -o fit.json", "kith fit trials.csv --types 2", "kith fit results/paper --method grid"},
-      declare, run);
+  commands.add<FitCommandOptions>("fit", "Estimate how people learn from what they saw and answered",
+                                  {"kith fit results/paper -o fit.json", "kith fit trials.csv --types 2"}, declare,
+                                  run);
 }
 
 }  // namespace kith::cli

@@ -232,7 +232,6 @@ class Inspection {
       out_ += "  kith fit and kith audit, and beliefs drawn on a sphere\n";
     } else {
       out_ += "  kith audit; kith fit, which tells answers apart by paths that it samples and says how noisy that is\n";
-      out_ += "  not kith fit --method kinds, which takes exact, small domains of three features\n";
     }
     if (!is_solid) out_ += "  beliefs and regions are drawn for pairs of features, areas are estimates\n";
     out_ += fmt::format("  kith inspect {} --show times measures how long a study takes here\n", name_);

@@ -27,7 +27,7 @@ TEST(FirstHour, WorldsGoByTheirNames) {
 TEST(FirstHour, InspectSaysWhatMattersAndWhatWorks) {
   const auto out = run_kith({"inspect", kHospital}).out;
   EXPECT_THAT(out, AllOf(HasSubstr("What matters: "), HasSubstr("crossing a wet floor costs"),
-                         HasSubstr("What works with this robot"), HasSubstr("not kith fit --method kinds")));
+                         HasSubstr("What works with this robot"), HasSubstr("paths that it samples")));
   EXPECT_THAT(run_kith({"inspect", "item-delivery"}).out, HasSubstr("  kith fit and kith audit"));
 }
 

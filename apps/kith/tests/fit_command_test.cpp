@@ -37,7 +37,6 @@ TEST_F(FitCommand, SaysWhatItFoundAndWhatCannotBeTold) {
   EXPECT_THAT(ran.out, HasSubstr("posterior medians and the maximum of the likelihood differ where"));
   EXPECT_THAT(ran.err, HasSubstr("W0704"));
   EXPECT_THAT(ran.err, HasSubstr("computing the likelihood of 12 people takes about "));
-  EXPECT_THAT(fit({"--method", "grid"}).err, HasSubstr("computing the likelihood of 12 people takes about "));
 }
 
 TEST_F(FitCommand, WritesTheSameJsonToFileAndOutput) {
@@ -66,33 +65,10 @@ TEST_F(FitCommand, WritesTheSameJsonToFileAndOutput) {
   EXPECT_EQ(fit({"-q", "-o", file, "--yes"}).code, 0);
 }
 
-TEST_F(FitCommand, SearchesTheGrid) {
-  const auto ran = fit({"--method", "grid", "--json", "-q"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  const auto document = Json::parse(ran.out);
-  EXPECT_EQ(document["method"], "grid");
-  EXPECT_EQ(document["groups"][0]["points"], 315);
-}
-
 TEST_F(FitCommand, TellsTypesWithoutLabels) {
   const auto ran = fit({"--types", "2", "-q"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("type 2"));
-}
-
-TEST_F(FitCommand, FitsAnswersWithoutExposures) {
-  const Scratch scratch;
-  std::string text = "participant,domain,mdp_id,test_difficulty,optimal_response,moves\n";
-  for (const auto* answer :
-       {"1,two_goal,a,0,1,up", "1,two_goal,b,2,0,up", "2,two_goal,a,0,1,up", "2,two_goal,b,2,1,up"})
-    text += std::string{answer} + "\n";
-  std::ofstream{scratch / "answers.csv"} << text;
-  const auto ran = run_kith({"fit", scratch / "answers.csv"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("the gains from feedback"));
-  EXPECT_EQ(run_kith({"fit", scratch / "answers.csv", "--method", "grid"}).code, 2);
-  const auto json = run_kith({"fit", scratch / "answers.csv", "--json"});
-  EXPECT_EQ(Json::parse(json.out)["method"], "accuracy");
 }
 
 TEST_F(FitCommand, ExitsWithTheCodeOfTheFault) {

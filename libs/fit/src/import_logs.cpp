@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResponses2021 = "lee2021_test_responses.csv";
-
 bool has_column(const std::vector<Column>& columns, const std::string& name) {
   return std::any_of(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
 }
@@ -31,44 +29,26 @@ void append(ResponseLogs& to, ResponseLogs from, const std::string& prefix) {
   }
   to.models.insert(to.models.end(), from.models.begin(), from.models.end());
   to.notes.insert(to.notes.end(), from.notes.begin(), from.notes.end());
-  if (first_model == 0) to.policy = from.policy;
-  if (to.policy != from.policy) to.policy.clear();  // of different domains
 }
 
-void add(ImportedLogs& all, const fs::path& path, AnswerDetail detail, PeopleRead people, const std::string& prefix) {
+void add(ResponseLogs& all, const fs::path& path, AnswerDetail detail, const std::string& prefix) {
   std::error_code ignored;
-  const bool folder = fs::is_directory(path, ignored);
-  const auto responses = folder ? path / kResponses2021 : path;
-  if (folder && !fs::exists(responses, ignored)) {
-    append(all.logs, import_run_folder(path, detail, {}, people), prefix);
-    return;
+  if (fs::is_directory(path, ignored)) return append(all, import_run_folder(path, detail), prefix);
+  const auto columns = read_csv_header(read_table_text(path), path.string());
+  if (!has_column(columns, "interaction_type") && !has_column(columns, "user_id")) {
+    throw Error{{detail::fault("E0703", "this table is of no known layout", path, 1,
+                               "give the folder of a run, or a CSV file with one row per trial (user_id, domain, "
+                               "interaction_type, ...)")}};
   }
-  const auto columns = read_csv_header(read_table_text(responses), responses.string());
-  if (has_column(columns, "interaction_type") || has_column(columns, "user_id")) {
-    append(all.logs, import_trials(responses), prefix);
-    return;
-  }
-  if (!has_column(columns, "participant") && !has_column(columns, "mdp_id")) {
-    throw Error{{detail::fault("E0703", "this table is of no known layout", responses, 1,
-                               "give the folder of a run, the folder of the Lee et al. (2021) tables, or a CSV "
-                               "file with one row per trial (user_id, domain, interaction_type, ...)")}};
-  }
-  for (auto record : accuracy_records(read_lee2021_responses(responses))) {
-    record.person.insert(0, prefix);
-    all.accuracy.push_back(std::move(record));
-  }
+  append(all, import_trials(path), prefix);
 }
 
 }  // namespace
 
-ImportedLogs import_logs(const std::vector<fs::path>& paths, AnswerDetail detail, PeopleRead people) {
-  ImportedLogs all;
+ResponseLogs import_logs(const std::vector<fs::path>& paths, AnswerDetail detail) {
+  ResponseLogs all;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    add(all, paths[i], detail, people, paths.size() == 1 ? "" : std::to_string(i + 1) + ":");
-  }
-  if (!all.logs.people.empty() && !all.accuracy.empty()) {
-    throw Error{{detail::fault("E0703", "logs with and without what people saw cannot be fitted together", paths.back(),
-                               0, "fit them one after the other")}};
+    add(all, paths[i], detail, paths.size() == 1 ? "" : std::to_string(i + 1) + ":");
   }
   return all;
 }

@@ -40,7 +40,6 @@ struct Seat {
 struct Shown {
   std::int64_t component = 1;
   std::vector<HalfSpace> half_spaces;
-  std::vector<StartIndex> demonstrations;
 };
 
 struct Answered {
@@ -55,11 +54,10 @@ struct Answered {
 
 class RunImport {
  public:
-  RunImport(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds, PeopleRead people)
+  RunImport(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds)
       : tables_{folder / "tables"},
         folder_{folder},
         detail_{detail},
-        any_kind_{people == PeopleRead::kAnyKind},
         run_{published(folder)},
         study_{study_of(folder, kinds)},
         atlas_{std::make_shared<const Atlas>(*study_.domain)} {}
@@ -76,7 +74,6 @@ class RunImport {
     }
     for (const auto& [seat, type] : types_) add_person(seat, type);
     add_notes();
-    logs_.policy = atlas_->policy_bec_half_spaces();
     return std::move(logs_);
   }
 
@@ -103,13 +100,6 @@ class RunImport {
 
   void check_study() {
     const auto study_file = folder_ / "inputs" / "study.toml";
-    if (any_kind_ && !atlas_->find_tables()) {
-      throw Error{
-          {detail::fault("E0711",
-                         "the kinds of people can be told only where all that they could answer is known: in "
-                         "exact, small domains of three features",
-                         folder_ / "inputs" / "domain.toml", 0, "fit abilities and gains, without --method kinds")}};
-    }
     for (const auto& variant : study_.study->variants) {
       if (variant.learner_counterfactuals_self) {
         throw Error{{detail::fault("E0706",
@@ -122,12 +112,12 @@ class RunImport {
                                    study_file, 0, "fit a run without stop.release")}};
       }
       for (const auto& type : variant.learner_types) {
-        if (any_kind_ || type.model->kind == bayesian_model().kind) continue;
+        if (type.model->kind == bayesian_model().kind) continue;
         throw Error{{detail::fault("E0712",
                                    "learners of type '" + std::string{type.letter} + "' are of the kind '" +
                                        std::string{type.model->kind} +
                                        "'; the parameters of populations are fitted for the kind 'bayesian' only",
-                                   study_file, 0, "use --method kinds")}};
+                                   study_file, 0)}};
       }
       if (variant.record == RecordLevel::kTeam) {
         throw Error{{detail::fault("E0705", "only teams were recorded, so there are no answers to fit to", study_file,
@@ -230,7 +220,7 @@ class RunImport {
                  shown.component = *row.integer(columns::kComponent);
                  const auto conveyed = half_spaces(file, row, columns::kConstraint);
                  shown.half_spaces.insert(shown.half_spaces.end(), conveyed.begin(), conveyed.end());
-                 if (const auto demo = start_of(file, row)) shown.demonstrations.push_back(*demo);
+                 static_cast<void>(start_of(file, row));
                });
   }
 
@@ -300,30 +290,20 @@ class RunImport {
                         : together != shown_.end() ? together->second
                                                    : std::map<std::int64_t, Shown>{};
     auto& answers = answers_[seat];
-    const auto& spec = study_.study->variants[variant];
     std::set<std::int64_t> periods;
     for (const auto& [period, one] : shown) periods.insert(period);
     for (const auto& [period, list] : answers) periods.insert(period);
     for (const auto period : periods) {
       const auto it = shown.find(period);
-      person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], spec, person));
+      person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], person));
     }
-    // There is no final examination: the last answers stand in for it.
-    constexpr std::size_t kFinal = 6;
-    person.final_tests = std::min(kFinal, last_.size());
-    person.final_correct = static_cast<std::size_t>(
-        std::count(last_.end() - static_cast<std::ptrdiff_t>(person.final_tests), last_.end(), true));
-    last_.clear();
     logs_.people.push_back(std::move(person));
   }
 
-  LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, const StudySpec& spec, PersonLog& person) {
+  LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, PersonLog& person) {
     LoggedPeriod period;
     period.component = static_cast<std::size_t>(answers.empty() ? shown.component : answers.front().component);
     period.conveyed = shown.half_spaces;
-    period.shown = shown.demonstrations;
-    period.minutes = minutes_of(spec.teaching.pace, shown.demonstrations.size(), answers.size(),
-                                spec.group.discussion.choice.is_held());
     std::sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.test < b.test; });
     std::set<HalfSpace> possible;
     for (const auto& answered : answers) {
@@ -339,7 +319,6 @@ class RunImport {
       }
       person.correct += answered.correct ? 1u : 0u;
       ++person.answered;
-      last_.push_back(answered.correct);
       add_answer(period, answered, demo);
     }
     period.possible.assign(possible.begin(), possible.end());
@@ -374,7 +353,7 @@ class RunImport {
 
   void add_notes() {
     const auto responses = tables_ / "responses.csv";
-    if (num_unknown_paths_ > 0 && !any_kind_) {
+    if (num_unknown_paths_ > 0) {
       logs_.notes.push_back(detail::note("W0706",
                                          std::to_string(num_unknown_paths_) +
                                              " answers are paths that are best for nobody; they count by their verdict",
@@ -398,7 +377,6 @@ class RunImport {
   fs::path tables_;
   fs::path folder_;
   AnswerDetail detail_;
-  bool any_kind_;
   PublishedRun run_;
   StudyReading study_;
   std::shared_ptr<const Atlas> atlas_;
@@ -408,7 +386,6 @@ class RunImport {
   std::map<Seat, TrueParameters> truths_;
   std::map<Seat, std::map<std::int64_t, Shown>> shown_;
   std::map<Seat, std::map<std::int64_t, std::vector<Answered>>> answers_;
-  std::vector<bool> last_;  // answers of the person at hand, in order
   std::size_t num_unknown_paths_ = 0;
   std::size_t num_unanswered_ = 0;
   ResponseLogs logs_;
@@ -416,9 +393,8 @@ class RunImport {
 
 }  // namespace
 
-ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds,
-                               PeopleRead people) {
-  return RunImport{folder, detail, kinds, people}.run();
+ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds) {
+  return RunImport{folder, detail, kinds}.run();
 }
 
 }  // namespace kith

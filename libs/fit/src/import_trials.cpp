@@ -377,10 +377,6 @@ class TrialImport {
       if (period.feedback && period.taught.empty()) period.taught = trial.half_spaces;
       ++log.answered;
       log.correct += trial.correct ? 1u : 0u;
-      if (trial.kind == TrialKind::kFinalTest) {
-        ++log.final_tests;
-        log.final_correct += trial.correct ? 1u : 0u;
-      }
       log.periods.push_back(std::move(period));
     }
     if (repaired > 0) {

@@ -30,9 +30,9 @@ void require_answer_regions(const ResponseLogs& logs) {
 // One run of the filter of one person, for all points of the grid.
 class Replay {
  public:
-  Replay(const PersonLog& person, const KnownLearner& model, const std::vector<HalfSpace>& policy,
-         const ParameterGrid& grid, double slip, RandomStream random)
-      : person_{person}, model_{model}, policy_{policy}, slip_{slip}, random_{random} {
+  Replay(const PersonLog& person, const KnownLearner& model, const ParameterGrid& grid, double slip,
+         RandomStream random)
+      : person_{person}, model_{model}, slip_{slip}, random_{random} {
     const double ability_max = model.parameters.real("ability_max");
     const double ability_scale = model.parameters.real("ability_scale");
     for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -48,7 +48,6 @@ class Replay {
       answers_.emplace_back(period.possible, period.answers, period.chance, form);
     }
     log_likelihood.resize(grid.size());
-    knowledge.resize(grid.size());
   }
 
   void run(const PriorCover& cover) {
@@ -64,7 +63,6 @@ class Replay {
   }
 
   std::vector<double> log_likelihood;  // shape [grid]
-  std::vector<double> knowledge;
 
  private:
   using Group = std::vector<std::size_t>;  // points that have had the same abilities so far: one learner stands for all
@@ -72,7 +70,10 @@ class Replay {
   // From period t on. The learner is this group's own, and one of its points. Recursion is at most as deep as there are
   // periods.
   void teach(std::size_t t, BayesianLearner learner, double log_probability, const Group& group) {
-    if (t == person_.periods.size()) return finish(learner, log_probability, group);
+    if (t == person_.periods.size()) {
+      for (const auto i : group) log_likelihood[i] = log_probability;
+      return;
+    }
     const auto& period = person_.periods[t];
     learner.watch(period.conveyed, t);
     log_probability += kith::log_likelihood(learner, answers_[t], slip_);
@@ -101,17 +102,8 @@ class Replay {
     return groups;
   }
 
-  void finish(const BayesianLearner& learner, double log_probability, const Group& group) {
-    const double mass = policy_.empty() ? 0.0 : learner.mass_in(policy_);
-    for (const auto i : group) {
-      log_likelihood[i] = log_probability;
-      knowledge[i] = mass;
-    }
-  }
-
   const PersonLog& person_;
   const KnownLearner& model_;
-  const std::vector<HalfSpace>& policy_;
   double slip_;
   RandomStream random_;
   std::vector<AnswerEvidence> answers_;  // shape [periods]
@@ -179,28 +171,22 @@ LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& g
   const std::size_t num_people = logs.people.size();
   const std::size_t num_tasks = num_people * options.replicates;
   std::vector<std::vector<double>> log_likelihood(num_tasks);
-  std::vector<std::vector<double>> knowledge(num_tasks);
-  LikelihoodTable table{.grid = grid, .log_likelihood = {}, .standard_error = {}, .knowledge = {}};
+  LikelihoodTable table{.grid = grid, .log_likelihood = {}, .standard_error = {}};
   table.complete = for_each_index(num_tasks, options.parallel, [&](std::size_t task) {
     const auto& person = logs.people[task % num_people];
     const auto random = RandomStream{options.seed}.split("fit").split(lessons_of(person)).split(task / num_people);
-    Replay replay{person, logs.models.at(person.model), logs.policy, grid, options.slip, random};
+    Replay replay{person, logs.models.at(person.model), grid, options.slip, random};
     replay.run(covers[person.model]);
     log_likelihood[task] = std::move(replay.log_likelihood);
-    knowledge[task] = std::move(replay.knowledge);
   });
   if (!table.complete) return table;
 
   std::vector<double> runs(options.replicates);
   for (std::size_t person = 0; person < num_people; ++person) {
     auto& row = table.log_likelihood.emplace_back(grid.size());
-    auto& mass = table.knowledge.emplace_back(grid.size(), 0.0);
     auto& error = table.standard_error.emplace_back(grid.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      for (std::size_t r = 0; r < runs.size(); ++r) {
-        runs[r] = log_likelihood[r * num_people + person][i];
-        mass[i] += knowledge[r * num_people + person][i] / static_cast<double>(runs.size());
-      }
+      for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = log_likelihood[r * num_people + person][i];
       row[i] = log_mean(runs);
       error[i] = standard_error(runs);
     }

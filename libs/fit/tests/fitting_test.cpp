@@ -7,9 +7,7 @@
 #include <set>
 
 #include "kith/core/error.hpp"
-#include "kith/fit/accuracy.hpp"
 #include "kith/fit/fit.hpp"
-#include "kith/fit/grid_search.hpp"
 #include "simulated_people.hpp"
 
 namespace kith {
@@ -46,7 +44,6 @@ TEST(Fitting, LikelihoodsDoNotDependOnThreads) {
   options.parallel.threads = 3;
   const auto three = log_likelihoods(few_people().logs, small_grid(), options);
   EXPECT_EQ(one.log_likelihood, three.log_likelihood);
-  EXPECT_EQ(one.knowledge, three.knowledge);
 }
 
 TEST(Fitting, SharingTheFilterChangesNoLikelihood) {
@@ -197,58 +194,6 @@ TEST(Fitting, RefusesTooFewPeople) {
     EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
     EXPECT_EQ(error.diagnostics().at(0).id, "E0710");
   }
-}
-
-TEST(GridSearch, KeepsWhatIsWithinEpsilonAndNothingBetweenLikelihoods) {
-  const auto table =
-      log_likelihoods(few_people().logs, make_grid(0.55, 0.85, 3, 0.18, 3), {.replicates = 1, .seed = 1});
-  const auto all = grid_search(few_people().logs, table, 2.0);
-  ASSERT_EQ(all.size(), 2u);
-  EXPECT_EQ(all[0].points, 9u);  // 3 abilities and 3 ordered pairs of gains
-  EXPECT_EQ(all[0].kept, 9u);
-  EXPECT_NEAR(all[0].ability_mean, 0.7, 1e-12);
-  const auto none = grid_search(few_people().logs, table, 1e-9);
-  EXPECT_EQ(none[0].kept, 0u);
-  EXPECT_EQ(none[0].least_error, all[0].least_error);
-  auto logs = few_people().logs;
-  logs.policy.clear();
-  EXPECT_THROW(static_cast<void>(grid_search(logs, table)), Error);
-}
-
-TEST(Accuracy, OrdersPeopleAndQuestionsByWhatTheyGotRight) {
-  std::vector<AccuracyRecord> records;
-  for (int p = 0; p < 9; ++p) {
-    for (int i = 0; i < 9; ++i) records.push_back({std::to_string(p), std::to_string(i), p >= i});
-  }
-  const auto fit = fit_accuracy(records);
-  ASSERT_EQ(fit.people.size(), 9u);
-  for (std::size_t p = 1; p < 9; ++p) {
-    EXPECT_GT(fit.people[p].ability, fit.people[p - 1].ability);
-    EXPECT_GT(fit.items[p].difficulty, fit.items[p - 1].difficulty);
-  }
-  EXPECT_GT(fit.reliability, 0.5);
-}
-
-TEST(Accuracy, RecoversTheSpreadOfAbilities) {
-  RandomStream random{8};
-  std::vector<AccuracyRecord> records;
-  std::vector<double> abilities;
-  for (int p = 0; p < 300; ++p) {
-    abilities.push_back(0.8 * standard_normal(random));
-    for (int i = 0; i < 18; ++i) {
-      const double difficulty = -2.0 + 4.0 * i / 17.0;
-      records.push_back({std::to_string(p), std::to_string(i),
-                         uniform01(random) < 1.0 / (1.0 + std::exp(difficulty - abilities.back()))});
-    }
-  }
-  const auto fit = fit_accuracy(records);
-  EXPECT_NEAR(fit.ability_sd, 0.8, 0.12);  // standard error 0.8 sqrt(1 / (2 * 300 * 0.6^2)) = 0.054
-  int covered = 0;
-  for (std::size_t p = 0; p < 300; ++p) {
-    covered += fit.people[p].lower <= abilities[p] && abilities[p] <= fit.people[p].upper ? 1 : 0;
-  }
-  EXPECT_GE(covered, 273);  // P(X <= 272) for X ~ B(300, 0.95) is 0.001
-  EXPECT_THROW(static_cast<void>(fit_accuracy({})), Error);
 }
 
 }  // namespace

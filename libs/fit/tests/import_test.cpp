@@ -63,12 +63,11 @@ class RunFolderImport : public ::testing::Test {
 };
 
 TEST_F(RunFolderImport, ReadsEverybodyWithTheirPeriods) {
-  const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
+  const auto logs = import_logs({run_}, AnswerDetail::kPath);
   ASSERT_EQ(logs.people.size(), 4u);
   EXPECT_EQ(logs.people[0].id, "1/1");
   EXPECT_EQ(logs.people[3].id, "2/2");
   EXPECT_TRUE(logs.notes.empty());
-  EXPECT_FALSE(logs.policy.empty());
   for (const auto& person : logs.people) {
     EXPECT_EQ(person.type, "N");
     EXPECT_FALSE(person.periods.empty());
@@ -86,7 +85,7 @@ TEST_F(RunFolderImport, ReadsEverybodyWithTheirPeriods) {
 TEST_F(RunFolderImport, PutsSeveralRunsTogether) {
   const auto other = folder_.path() / "other";
   testing::run_into(other, testing::study_text("N", 3, kTypes));
-  const auto logs = import_logs({run_, other}, AnswerDetail::kVerdict).logs;
+  const auto logs = import_logs({run_, other}, AnswerDetail::kVerdict);
   ASSERT_EQ(logs.people.size(), 7u);
   EXPECT_EQ(logs.people[0].id, "1:1/1");
   EXPECT_EQ(logs.people[6].id, "2:3/1");
@@ -146,7 +145,7 @@ TEST_F(RunFolderImport, CountsAPathThatIsBestForNobodyByItsVerdict) {
     begin = end + 1;
   }
   put_table("responses.csv", spoiled);
-  const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
+  const auto logs = import_logs({run_}, AnswerDetail::kPath);
   ASSERT_EQ(logs.notes.size(), 1u);
   EXPECT_EQ(logs.notes[0].id, "W0706");
 }
@@ -159,7 +158,7 @@ TEST_F(RunFolderImport, CountsTestsWithoutAnAnswerAsSayingNothing) {
   for (int comma = 0; comma < 12; ++comma) at = text.find(',', at) + 1;
   text.replace(at, text.find(',', at) - at, "");
   put_table("responses.csv", text);
-  const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
+  const auto logs = import_logs({run_}, AnswerDetail::kPath);
   ASSERT_FALSE(logs.notes.empty());
   EXPECT_EQ(logs.notes.back().id, "W0707");
 }
@@ -195,26 +194,6 @@ TEST(RunImport, RefusesLearnersOfOtherModels) {
   }
 }
 
-TEST(RunImport, RefusesKindsOfPeopleWithoutTables) {
-  const testing::ScratchFolder folder;
-  const auto domain = folder.path() / "two.toml";
-  write_file_atomically(domain,
-                        testing::rubble_domain("\"S.rG\", \"....\"", "[prior]\nhalfspaces = [ { step = -1 } ]\n"));
-  testing::run_into(folder.path() / "run",
-                    "schema = \"kith.study/1\"\nid = \"two\"\ndomain = \"" + domain.string() +
-                        "\"\nseed = 3\nreplicates = 2\n[design]\nstrategies = [\"common\"]\ncompositions = [\"NN\"]\n" +
-                        kTypes);
-  try {
-    (void)import_run_folder(folder.path() / "run", AnswerDetail::kPath, {}, PeopleRead::kAnyKind);
-    ADD_FAILURE() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.diagnostics().front().id, "E0711");
-  }
-  auto logs = import_run_folder(folder.path() / "run", AnswerDetail::kPath);
-  ASSERT_TRUE(find_answer_regions(logs));
-  EXPECT_GT(logs.sample->paths, 0u);
-}
-
 TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {
   const testing::ScratchFolder folder;
   testing::run_into(
@@ -222,7 +201,7 @@ TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {
       "schema = \"kith.study/1\"\nid = \"paired\"\ndomain = \"item-delivery\"\nseed = 3\nreplicates = 2\n[design]\n"
       "strategies = [\"baseline\", \"common\"]\ncompositions = [\"NN\"]\n" +
           kTypes);
-  const auto logs = import_logs({folder.path() / "run"}, AnswerDetail::kPath).logs;
+  const auto logs = import_logs({folder.path() / "run"}, AnswerDetail::kPath);
   EXPECT_EQ(logs.people.size(), 8u);
   for (const auto& person : logs.people) EXPECT_FALSE(person.periods.empty()) << person.id;
   ASSERT_EQ(logs.notes.size(), 1u);
@@ -270,7 +249,6 @@ TEST(Trials, BecomePeriodsInOrder) {
   EXPECT_EQ(person.id, "a/at");
   EXPECT_EQ(person.answered, 4u);
   EXPECT_EQ(person.correct, 3u);
-  EXPECT_EQ(person.final_tests, 2u);
   ASSERT_EQ(person.periods.size(), 4u);
   const std::vector<HalfSpace> shown{HalfSpace{IntegerVector{-1, 0, 2}}};
   EXPECT_EQ(person.periods[0].conveyed, shown);
@@ -350,7 +328,7 @@ TEST(Trials, AreFittedWhateverTheirOrderNamesAndFiles) {
     std::vector<fs::path> files;
     for (const auto& text : texts)
       files.push_back(folder.write("t" + std::to_string(files.size()) + ".csv", kHeader + text));
-    const auto logs = import_logs(files, AnswerDetail::kPath).logs;
+    const auto logs = import_logs(files, AnswerDetail::kPath);
     EXPECT_EQ(note_ids(logs).count("W0708"), 0u);
     const FitOptions options{.replicates = 32, .folds = 0, .num_abilities = 5, .num_gains = 2, .num_draws = 20};
     return abilities(fit_learners(logs, options));
@@ -472,16 +450,6 @@ TEST(Trials, GiveDifferentPeopleDifferentNames) {
   std::set<std::string> names;
   for (const auto& person : logs.people) names.insert(person.id);
   EXPECT_EQ(names, (std::set<std::string>{"a/b%2Fc", "a%2Fb/c", "a/b/c"}));
-}
-
-TEST(ImportLogs, KeepsDataWithAndWithoutExposuresApart) {
-  const testing::ScratchFolder folder;
-  const auto trials = folder.write("trials.csv", kHeader + session("a", "cl", 1));
-  const auto answers = folder.write(
-      "answers.csv", "participant,domain,mdp_id,test_difficulty,optimal_response,moves\n1,two_goal,w,0,1,up\n");
-  EXPECT_EQ(import_logs({answers}, AnswerDetail::kPath).accuracy.size(), 1u);
-  const auto fault = fault_of([&] { static_cast<void>(import_logs({trials, answers}, AnswerDetail::kPath)); });
-  EXPECT_EQ(fault.substr(0, 5), "E0703");
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace kith {
 /// @throws kith::Error (kInvalidInput, with file and row) if a table cannot be understood (E0501 to E0512, E0707,
 /// E0708), the run has no answers because of its record level (E0705), it is not finished (E0704), or learners imagine
 /// counterfactuals of their own, so that the tables do not say what they learned (E0706), or there are learners of
-/// another model than "bayesian" (E0712, unless any are wanted).
+/// another model than "bayesian" (E0712).
 /// @param kinds  what the frozen study may name.
 [[nodiscard]] ResponseLogs import_run_folder(const std::filesystem::path& folder, AnswerDetail detail,
-                                             const StudyKinds& kinds = {}, PeopleRead people = PeopleRead::kBayesian);
+                                             const StudyKinds& kinds = {});
 
 }  // namespace kith

@@ -43,14 +43,13 @@ struct LikelihoodOptions {
   ParallelOptions parallel{};
 };
 
-/// log p(all answers of a person | parameters) on a grid, and what the person would know at the end.
+/// log p(all answers of a person | parameters) on a grid.
 struct LikelihoodTable {
   ParameterGrid grid;
   std::vector<std::vector<double>> log_likelihood;  ///< Shape [people][grid].
   /// Monte-Carlo error of the same, from the spread over runs of the filter; 0 with a single run. Same shape.
   std::vector<std::vector<double>> standard_error;
-  std::vector<std::vector<double>> knowledge;  ///< Mass of the final belief in the policy's class, same shape.
-  bool complete = true;                        ///< False: stopped by on_progress; the rest is then unusable.
+  bool complete = true;  ///< False: stopped by on_progress; the rest is then unusable.
 };
 
 /// Replays every person's sequence for every point of the grid, by the rules of the simulated learner:

@@ -22,11 +22,9 @@ struct LoggedPeriod {
   bool all_correct = true;            ///< Which gain the feedback brings.
   bool feedback = true;               ///< Whether the person heard which answers were right.
   std::vector<HalfSpace> taught;      ///< By the feedback, at the changed ability.
-  // What people of other kinds and find_answer_regions() need besides. Only from run folders.
-  std::vector<StartIndex> shown;   ///< The demonstrations themselves.
+  // What find_answer_regions() needs besides. Only from run folders.
   std::vector<GivenAnswer> given;  ///< The paths that were answered.
   std::vector<bool> given_right;   ///< Whether they were right, shape [given].
-  double minutes = 0.0;            ///< How long it took.
 };
 
 /// What is taken for known about a learner of the model "bayesian": all but the parameters that are fitted.
@@ -52,8 +50,6 @@ struct PersonLog {
   std::vector<LoggedPeriod> periods;
   std::size_t answered = 0;               ///< Tests answered, in all periods.
   std::size_t correct = 0;                ///< Of these.
-  std::size_t final_tests = 0;            ///< Final tests; in run folders, which have none, the last 6 answers.
-  std::size_t final_correct = 0;          ///< Of these.
   std::optional<TrueParameters> truth{};  ///< If known; for recovery() only, no estimate depends on it.
 };
 
@@ -74,15 +70,8 @@ struct PathSample {
 struct ResponseLogs {
   std::vector<PersonLog> people;
   std::vector<KnownLearner> models;
-  std::vector<HalfSpace> policy;     ///< The behaviour equivalence class of the robot's policy; empty: unknown.
   std::optional<PathSample> sample;  ///< Set by find_answer_regions().
   std::vector<Diagnostic> notes;     ///< Warnings: what was repaired, left out or doubtful.
-};
-
-/// Which people a run folder may have.
-enum class PeopleRead {
-  kBayesian,  ///< Of the model "bayesian" only: what fit_learners() takes.
-  kAnyKind,   ///< Whoever they are: what fit_kinds() takes.
 };
 
 /// How much of an answer is used.

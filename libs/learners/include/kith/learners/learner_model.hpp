@@ -56,7 +56,7 @@ struct LearnerModel {
   bool has_ability = false;                ///< Whether Learner::ability() has a value.
   bool needs_paths = false;                ///< Whether Learner::likelihood() takes only evidence with paths.
 
-  /// What is estimated of people besides their ability, which may be nothing; see fit_kinds().
+  /// What is estimated of people besides their ability, which may be nothing.
   std::span<const FittedParameter> fitted{};
 
   /// What is wrong with parameters that are each in their range, if anything. May be null.
