@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # transcripts.sh compare|update KITH FOLDER: the transcript of one team per strategy, learner model and way of talking
-# that kith knows against (or into) FOLDER/STRATEGY.txt, learner-KIND.txt and discussion-MODEL.txt.
+# that kith knows against (or into) FOLDER/STRATEGY.txt, learner-KIND.txt and discussion-MODEL.txt. Of each, the first
+# and the last period are kept, and a digest of all of it.
 set -uo pipefail
 mode=$1 kith=$2 folder=$3
 unset "${!KITH_@}"
@@ -20,15 +21,23 @@ if (( ${#command[@]} < 2 )); then
   echo "kith explain strategies does not list strategies"
   exit 1
 fi
+short_transcript() {  # WORD...
+  local text
+  text=$("$kith" teach item-delivery --group NNP --seed 1 "$@") || return
+  printf '%s\n' "$text" | awk -v digest="$(printf '%s\n' "$text" | sha256sum | cut -c1-16)" '
+    /^=+$/ { ++n }
+    { part[n] = part[n] $0 "\n" }
+    END { printf "%s(all %d lines: %s)\n", part[1], NR, digest; if (n > 2) printf "%s", part[n - 1]; printf "%s", part[n] }'
+}
 for name in $(printf '%s\n' "${!command[@]}" | sort); do
   file=$folder/$name.txt
   read -ra arguments <<<"${command[$name]}"
   if [[ $mode == update ]]; then
-    "$kith" teach item-delivery --group NNP --seed 1 "${arguments[@]}" >"$file" || exit
+    short_transcript "${arguments[@]}" >"$file" || exit
   elif [[ ! -f $file ]]; then
     echo "$name has no transcript; to write it, run: cmake --build BUILD --target update_transcripts"
     status=1
-  elif ! "$kith" teach item-delivery --group NNP --seed 1 "${arguments[@]}" | diff -u "$file" -; then
+  elif ! short_transcript "${arguments[@]}" | diff -u "$file" -; then
     echo "the transcript of $name has changed; if it should, run: cmake --build BUILD --target update_transcripts"
     status=1
   fi
