@@ -69,11 +69,8 @@ void require_teachable(const std::vector<StrategyChoice>& strategies) {
 
 // What sessions of people cannot do.
 void require_whole_group(const StudySpec& spec) {
-  std::string key;
-  if (spec.teaching.release) key = "stop.release";
-  if (spec.grouping != Grouping::kTogether) key = "teacher.grouping";
-  if (key.empty()) return;
-  throw Error{ErrorKind::kInvalidInput, "'" + key + "' works in simulated studies only: remove it to teach people"};
+  if (!spec.teaching.release) return;
+  throw Error{ErrorKind::kInvalidInput, "'stop.release' works in simulated studies only: remove it to teach people"};
 }
 
 void require_small_worlds(const Domain& domain) {

@@ -288,7 +288,6 @@ class Paragraph {
       say("Members who " + options.release->kind.released(options, options.release->parameters) +
           " had no part in the remaining periods of a component.");
     }
-    if (spec_.grouping == Grouping::kByType) say("The members of each learner type had a session of their own.");
 
     const auto missed = static_cast<std::size_t>(std::count_if(
         data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed && !team.skipped; }));

@@ -132,7 +132,6 @@ Study full_study() {
   spec.exam = ExamLevel::kPeriod;
   spec.estimates = spec.beliefs = true;
   spec.forecast_sessions = 10;
-  spec.grouping = Grouping::kByType;
   spec.group.discussion.choice.model = &discussion_models().back();
   return study;
 }

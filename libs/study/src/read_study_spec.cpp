@@ -415,10 +415,22 @@ class SpecReader {
                   "remove this line; results do not change");
   }
 
+  // Frozen studies of versions before say that the whole team is taught together, as it is now in any case.
+  void refuse_grouping(TomlReader& teacher) {
+    const auto* value = teacher.content().find("grouping");
+    if (value == nullptr) return;
+    const auto word = teacher.string("grouping", Presence::kRequired);
+    if (!word || *word == "together") return;
+    report_.error("E0107", value->place(),
+                  "the key 'grouping' of [teacher] is no longer there; the whole team is taught together",
+                  "remove this line, or give each learner type a composition of its own");
+  }
+
   void read_teacher(TomlReader& teacher) {
     read_options(teacher, teacher_keys(), spec_.teaching);
     read_options(teacher, more_teacher_keys(), spec_);
     refuse_conflict(teacher);
+    refuse_grouping(teacher);
     static_cast<void>(teacher.integer("placement_tests", Presence::kOptional, {0, 0}));  // of earlier run folders
     read_beliefs(teacher);
     read_kinds(teacher);

@@ -56,9 +56,6 @@ bool asks_for_kinds(const Study& study) {
 bool has_belief_quality(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.beliefs; });
 }
-bool has_subgroups(const Study& study) {
-  return any_variant(study, [](const StudySpec& spec) { return spec.grouping != Grouping::kTogether; });
-}
 bool has_world_names(const Study& study) { return !study.variants.front().world_names.empty(); }
 bool all_have_ability(const Study& study) {
   const auto types = types_of(study);

@@ -8,9 +8,6 @@
 namespace kith {
 
 template <>
-inline constexpr std::array kWordsFor<Grouping>{WordFor{Grouping::kTogether, "together"},
-                                                WordFor{Grouping::kByType, "by-type"}};
-template <>
 inline constexpr std::array kWordsFor<RecordLevel>{WordFor{RecordLevel::kTeam, "team"},
                                                    WordFor{RecordLevel::kPeriod, "period"},
                                                    WordFor{RecordLevel::kParticles, "particles"}};
@@ -84,10 +81,7 @@ std::vector<Parameter> declared_in(std::string_view table) {
 }  // namespace
 
 std::span<const OptionKey<StudySpec>> more_teacher_keys() {
-  static const std::array keys{
-      option_key<StudySpec, &StudySpec::grouping>(
-          "grouping", "'together': one session for the whole team; 'by-type': one for each learner type"),
-      learner_counterfactuals()};
+  static const std::array keys{learner_counterfactuals()};
   return keys;
 }
 

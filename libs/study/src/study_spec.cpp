@@ -16,8 +16,7 @@ void take_domain(StudySpec& spec, const Domain& domain) {
 }
 
 bool has_costs(const StudySpec& spec) noexcept {
-  return spec.exam != ExamLevel::kNone || spec.grouping != Grouping::kTogether || spec.teaching.release.has_value() ||
-         spec.forecast_sessions > 0;
+  return spec.exam != ExamLevel::kNone || spec.teaching.release.has_value() || spec.forecast_sessions > 0;
 }
 
 const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name) {

@@ -54,8 +54,6 @@ class TeamRun {
   std::optional<TeamRecord> run() {
     if (record_.address.strategy == kBaseline) {
       for (const auto& person : people_) run_session({person}, lone_teacher_stream(person.stream), person.member);
-    } else if (spec_.grouping == Grouping::kByType) {
-      run_sessions_by_type();
     } else {
       run_session(people_, teacher_stream(stream_), 0);
     }
@@ -71,20 +69,6 @@ class TeamRun {
       const auto stream = person_stream(stream_, ++member);
       const auto& type = type_of_person(spec_, letter, stream);
       people_.push_back({type.letter, draw_traits(type, stream), stream, member});
-    }
-  }
-
-  // In the order of the first member of each type.
-  void run_sessions_by_type() {
-    std::string types;
-    for (const auto& person : people_) {
-      if (types.find(person.type) == std::string::npos) types += person.type;
-    }
-    for (const char type : types) {
-      std::vector<Person> people;
-      std::copy_if(people_.begin(), people_.end(), std::back_inserter(people),
-                   [&](const Person& person) { return person.type == type; });
-      run_session(people, teacher_stream(stream_).split(std::string_view{&type, 1}), 0);
     }
   }
 

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <numeric>
-#include <set>
 #include <string>
 
 #include "item_delivery.hpp"
@@ -82,26 +81,6 @@ TEST(Release, SavesTheTimeOfThoseWhoAreDone) {
   }
   EXPECT_GT(away, 0u);
   EXPECT_THAT(crew_table({{spec}}, "teams.csv"), HasSubstr(",area_sr,person_periods,minutes,person_minutes\n"));
-}
-
-TEST(Grouping, ByTypeTeachesEveryTypeInItsOwnSession) {
-  auto spec = crew_spec();
-  spec.grouping = Grouping::kByType;
-  for (const auto& team : run_crews({{spec}})) {
-    ASSERT_EQ(team.learners.size(), 3u);
-    EXPECT_EQ(team.learners[0].type, 'N');
-    EXPECT_EQ(team.learners[2].type, 'P');
-    EXPECT_EQ(team.learners[2].member, 3u);
-    EXPECT_EQ(team.periods, team.learners[0].periods + team.learners[2].periods);
-    EXPECT_EQ(team.cost.person_periods, 2 * team.learners[0].periods + team.learners[2].periods);
-    std::set<std::size_t> sessions;
-    for (const auto& period : team.period_records) {
-      sessions.insert(period.session);
-      EXPECT_EQ(period.members, period.session == 1 ? 2u : 1u);
-    }
-    EXPECT_EQ(sessions, (std::set<std::size_t>{1, 2}));
-  }
-  EXPECT_THAT(crew_table({{spec}}, "periods.csv"), HasSubstr(",team,session,period,kc,"));
 }
 
 TEST(KnownComponents, RaiseWhatPeopleBelieveAndNothingElse) {

@@ -105,7 +105,6 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.max_demonstrations, 0u);
   EXPECT_FALSE(spec.teaching.review);
   EXPECT_EQ(spec.exam, ExamLevel::kNone);
-  EXPECT_EQ(spec.grouping, Grouping::kTogether);
   EXPECT_EQ(spec.teaching.release, std::nullopt);
   EXPECT_EQ(spec.forecast_sessions, 0u);
   EXPECT_FALSE(spec.estimates);
@@ -186,9 +185,9 @@ TEST(StudyFile, ReadsMixturesAndDrawsPeopleFromThem) {
   EXPECT_EQ(type_of_person(spec, 'M', RandomStream{1}).letter, 'M');
 }
 
-TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
+TEST(StudyFile, ReadsWhoIsReleasedAndWhatIsForecast) {
   const auto text = study_with("[learner.N]",
-                               "[teacher]\ngrouping = \"by-type\"\nhypotheses = \"known-components\"\n"
+                               "[teacher]\ngrouping = \"together\"\nhypotheses = \"known-components\"\n"
                                "[stop]\nrelease = \"posterior\"\n[pace]\ndemonstration_s = 8\n"
                                "test_s = 12.5\nfeedback_s = 0\n[record]\nforecast = 50\nestimates = true\n"
                                "proficient_ability = 0.8\n[learner.N]\nknown = 0.5");
@@ -197,7 +196,6 @@ TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
   for (const auto& reading : {parse(text), parse(to_toml(*first.study, *first.domain))}) {
     ASSERT_TRUE(reading.study) << ::testing::PrintToString(ids(reading));
     const auto& spec = reading.study->variants.front();
-    EXPECT_EQ(spec.grouping, Grouping::kByType);
     EXPECT_EQ(spec.teaching.hypotheses_about, HypothesesAbout::kKnownComponents);
     EXPECT_EQ(spec.teaching.release, stop_rule_named("posterior"));
     EXPECT_EQ(spec.teaching.pace, (Pace{8.0, 12.5, 0.0}));
@@ -247,6 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0101", "seed = 7", "seed = ", 4}, Mistake{"E0106", "kith.study/1", "kith.study/9", 1},
         Mistake{"E0115", "\"tiny\"", "\"Tiny Study\"", 2}, Mistake{"E0116", "\"item-delivery\"", "\"item-delivry\"", 3},
         Mistake{"E0107", "[design]", "teacher.conflict = \"largest-consistent\"\n[design]", 6},
+        Mistake{"E0107", "[design]", "teacher.grouping = \"by-type\"\n[design]", 6},
         Mistake{"E0107", "replicates", "replicats", 5}, Mistake{"E0108", "seed = 7", "seed = 7.5", 4},
         Mistake{"E0109", "correct_gain", "gain_max = 0.07 #", 9},
         Mistake{"E0110", "replicates = 2", "replicates = 0", 5}, Mistake{"E0110", "mean = 0.7", "mean = 1.7", 10},

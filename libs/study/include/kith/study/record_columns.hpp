@@ -42,7 +42,6 @@ struct RecordColumn {
 [[nodiscard]] bool has_discussions(const Study& study);
 [[nodiscard]] bool asks_for_kinds(const Study& study);
 [[nodiscard]] bool has_belief_quality(const Study& study);
-[[nodiscard]] bool has_subgroups(const Study& study);
 [[nodiscard]] bool has_world_names(const Study& study);
 /// Whether the learner models of all types have an ability.
 [[nodiscard]] bool all_have_ability(const Study& study);
@@ -200,8 +199,7 @@ void declare(Fields& fields, Declared<PeriodRecord>) {
   using R = PeriodRecord;
   fields.column(&R::period, kOfPeriod);
   fields.kept(&R::member);
-  fields.column(&R::session, {kSession, "Number of the team's session, from 1."},
-                {.when = has_subgroups, .before = kPeriod});
+  fields.kept(&R::session);
   fields.kept(&R::members);
   fields.column(&R::component, kOfComponent);
   fields.column(&R::source, {"source", "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."});

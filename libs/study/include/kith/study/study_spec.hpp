@@ -54,12 +54,6 @@ enum class ExamLevel {
   kPeriod,  ///< Also after every period.
 };
 
-/// Who is taught together.
-enum class Grouping {
-  kTogether,  ///< The whole team [jayaraman2024].
-  kByType,    ///< A session for each learner type of the team, one after the other, by the same teacher.
-};
-
 /// One setting of the varied keys of a design, such as {"teacher.process_noise", "0.5"}.
 struct FactorSetting {
   std::string key;
@@ -105,7 +99,6 @@ struct StudySpec {
   std::vector<LearnerType> learner_types;
   TeachingOptions teaching;
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
-  Grouping grouping = Grouping::kTogether;    ///< Of every strategy but the baseline.
   RecordLevel record = RecordLevel::kPeriod;
   ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
   std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.
