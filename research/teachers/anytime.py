@@ -1,19 +1,25 @@
 #!/usr/bin/env python3
 """What people get wrong after every number of items, under each strategy: anytime curves.
 
-usage: anytime.py KITH OUT.csv [--domains FILE...] [--teams 30] [--kinds KIND...] [--strategies NAME...]
+usage: anytime.py KITH OUT.csv [--domains FILE...] [--random N] [--teams 30] [--kinds KIND...] [--strategies NAME...]
+       anytime.py --summary OUT.csv...
 
 Teams of three are taught and sit an exam over the whole domain after every period. The row of a strategy at k items is
 the mean over teams of the exam after the last period within k items, carried on when a team has finished. The
-strategies of the paper stop by their own rule; all others go on until 40 items.
+strategies of the paper stop by their own rule; all others go on until 40 items. --random N takes N grids of two or three
+features, by chance. --summary says where "plan" is first: at most 1.1 times the regret of the best other strategy, or
+not more beyond two standard errors; and the median of its regret as a share of theirs.
 
 Columns: domain, kind, strategy, k, regret, regret_se, share, share_se, teams.
 """
 import argparse
 import collections
 import csv
+import itertools
+import json
 import math
 import pathlib
+import random
 import statistics
 import subprocess
 import sys
@@ -81,36 +87,100 @@ def run(kith, domain, kind, settings, teams, learner):
                  for period, members in sorted(periods.items())] for team, periods in grades.items()]
 
 
+def random_domain(number, folder):
+    """A file with a grid of random terrains and weights; everything optional appears or not."""
+    draw = random.Random(number)
+    terrains = "ab"[: draw.choice((1, 2, 2))]
+    width, height = draw.randint(4, 6), draw.randint(3, 5)
+    cells = [[draw.choices("." + terrains + terrains.upper() + "#", [8] + [1] * 2 * len(terrains) + [1])[0]
+              for _ in range(width)] for _ in range(height)]
+    cells[draw.randrange(height)][width - 1] = "G"
+    cells[draw.randrange(height)][0] = "S"
+    for letter in terrains:
+        cells[draw.randrange(height)][draw.randrange(1, width - 1)] = letter
+    rows = ",\n".join(f'"{"".join(row)}"' for row in cells)
+    legend = "".join(f'{letter} = {{ terrain = "{letter}" }}\n{letter.upper()} = {{ terrain = "{letter}", '
+                     f'optional = "more-{letter}" }}\n' for letter in terrains)
+    features = "".join(f'[[feature]]\nname = "{letter}"\nwhen = "enter:{letter}"\n' for letter in terrains)
+    weights = ", ".join(f"{letter} = {-draw.choice((0.5, 1.5, 2.5, 4.5))}" for letter in terrains)
+    prior = ", ".join(f"{{ {name} = -1 }}" for name in [*terrains, "step"])
+    file = pathlib.Path(folder, f"random-{number}.toml")
+    file.write_text(f'schema = "kith.domain/1"\nid = "random-{number}"\n[mdp]\ndiscount = 1.0\nmax_steps = 60\n'
+                    f'[map]\nrows = [{rows}]\n[map.legend]\n"." = "floor"\n"#" = "wall"\nG = {{ goal = true }}\nS = {{ start = true }}\n'
+                    f'{legend}{features}[[feature]]\nname = "step"\nwhen = "action"\n[reward]\n'
+                    f'weights = {{ {weights}, step = -1 }}\n[prior]\nhalfspaces = [{prior}]\n', encoding="utf-8")
+    return file
+
+
+def random_domains(kith, n, folder):
+    """The first n of them that can be taught."""
+    files = []
+    for number in range(1, 10 * n):
+        file = random_domain(number, folder)
+        done = subprocess.run([kith, "inspect", file, "--json"], check=False, capture_output=True, text=True)
+        if done.returncode == 0 and len(json.loads(done.stdout)["bec"]["constraints"]) >= 2:
+            files.append(file)
+        if len(files) == n:
+            break
+    return files
+
+
+def summarise(files):
+    cells = collections.defaultdict(dict)
+    for file in files:
+        with open(file, newline="", encoding="utf-8") as table:
+            for row in csv.DictReader(table):
+                cells[row["domain"], row["kind"], int(row["k"])][row["strategy"]] = (
+                    float(row["regret"]), float(row["regret_se"]))
+    lost, ratios = [], collections.defaultdict(list)
+    for cell, regrets in sorted(cells.items()):
+        plan, error = regrets.pop("plan")
+        name, (best, best_error) = min(regrets.items(), key=lambda one: one[1])
+        if best > 1e-9:
+            ratios[cell[2]].append(plan / best)
+        if plan > 1.1 * best and plan - best > 2 * math.hypot(error, best_error):
+            lost.append(f"{', '.join(map(str, cell))}: {plan:.4g} ({error:.2g}), {name} {best:.4g} ({best_error:.2g})")
+    print(f"first in {len(cells) - len(lost)} of {len(cells)} cells; lost:", *lost, sep="\n  ")
+    for k, values in sorted(ratios.items()):
+        print(f"{k} items: median of {len(values)} ratios to the best other {statistics.median(values):.3g}")
+
+
 def at(team, k):
     return [exam for exam in team if exam[0] <= k][-1][1:]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("kith")
-    parser.add_argument("out")
-    parser.add_argument("--domains", nargs="+", default=BUILT_IN)
+    parser.add_argument("kith", nargs="?")
+    parser.add_argument("out", nargs="?")
+    parser.add_argument("--summary", nargs="+")
+    parser.add_argument("--random", type=int, default=0)
+    parser.add_argument("--domains", nargs="+")
     parser.add_argument("--teams", type=int, default=30)
     parser.add_argument("--kinds", nargs="+", default=["bayesian"])
     parser.add_argument("--strategies", nargs="+")
     arguments = parser.parse_args()
-    with open(arguments.out, "w", newline="", encoding="utf-8") as out:
+    if arguments.summary:
+        summarise(arguments.summary)
+        return
+    with open(arguments.out, "w", newline="", encoding="utf-8") as out, tempfile.TemporaryDirectory() as folder:
+        domains = arguments.domains or ([] if arguments.random else BUILT_IN)
+        domains = [*domains, *random_domains(arguments.kith, arguments.random, folder)]
         table = csv.writer(out)
         table.writerow(["domain", "kind", "strategy", "k", "regret", "regret_se", "share", "share_se", "teams"])
-        for domain in arguments.domains:
-            for learner in arguments.kinds:
-                for name, kind, settings in STRATEGIES:
-                    if arguments.strategies and name not in arguments.strategies:
-                        continue
-                    teams = run(arguments.kith, domain, kind, settings, arguments.teams, learner)
-                    for k in ITEMS:
-                        row = []
-                        for values in zip(*(at(team, k) for team in teams)):
-                            error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
-                            row += [f"{statistics.fmean(values):.6g}", f"{error:.3g}"]
-                        table.writerow([domain, learner, name, k, *row, len(teams)])
-                    out.flush()
-                    print(f"{domain}, {learner}: {name}", file=sys.stderr)
+        for domain, learner in itertools.product(domains, arguments.kinds):
+            for name, kind, settings in STRATEGIES:
+                if arguments.strategies and name not in arguments.strategies:
+                    continue
+                teams = run(arguments.kith, domain, kind, settings, arguments.teams, learner)
+                for k in ITEMS:
+                    row = []
+                    for values in zip(*(at(team, k) for team in teams)):
+                        error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
+                        row += [f"{statistics.fmean(values):.6g}", f"{error:.3g}"]
+                    table.writerow([pathlib.Path(domain).stem, learner, name, k, *row, len(teams)])
+                out.flush()
+                print(f"{domain}, {learner}: {name}", file=sys.stderr)
 
 
 if __name__ == "__main__":
