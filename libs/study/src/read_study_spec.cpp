@@ -151,7 +151,7 @@ class SpecReader {
     for (const auto& element : *list) {
       auto name = *element.string();
       if (name == "adaptive" && !strategy_called(name)) {
-        report_.warning("W0406", element.place(), "strategy 'adaptive' is read as 'plan'",
+        report_.warning("W0408", element.place(), "strategy 'adaptive' is read as 'plan'",
                         "'plan' does what 'adaptive' did: it finds out from their answers how well people learn");
         name = "plan";
         if (is_listed(name)) continue;

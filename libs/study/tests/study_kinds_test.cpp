@@ -93,6 +93,12 @@ TEST(StudyKinds, SayWhatIsWrongWithStrategies) {
             (std::vector<std::string>{"E0418"}));
   EXPECT_EQ(ids_in(parse_study(study("\"joint\"", "[strategy.mine]\nkind = \"joint\"\n"), "t")),
             (std::vector<std::string>{"W0404"}));
+  const auto renamed = parse_study(study("\"joint\", \"adaptive\", \"plan\"", ""), "t");
+  EXPECT_EQ(ids_in(renamed), (std::vector<std::string>{"W0408", "E0403"}));
+  const auto planned = parse_study(study("\"adaptive\"", "[strategy.plan]\nmin_gain = 0.1\ncapacity = 2\n"), "t");
+  EXPECT_EQ(ids_in(planned), (std::vector<std::string>{"W0407", "W0408"}));
+  ASSERT_TRUE(planned.study);
+  EXPECT_EQ(planned.study->variants.front().strategies.front().parameters.count("capacity"), 2);
   const auto unknown_key = parse_study(study("\"joint\"", "[strategy.joint]\ndepth = 3\n"), "t");
   EXPECT_FALSE(unknown_key.study);
   const auto no_kind = parse_study(study("\"mine\"", "[strategy.mine]\n"), "t");
