@@ -67,10 +67,10 @@ TEST_F(AnalyzeCommand, FitsOnAPage) {
   EXPECT_THAT(page, AllOf(HasSubstr("Effects of strategy and composition: periods"), HasSubstr("--all` shows "),
                           Not(HasSubstr("Manipulation check"))));
   const auto findings = Json::parse(run_kith({"analyze", folder(), "--json"}).out).at("findings");
+  const auto left = page.substr(page.find("--all` shows"));
   for (const auto& finding : findings) {
-    EXPECT_THAT(page, ::testing::AnyOf(HasSubstr(finding.at("title").get<std::string>()),
-                                       ContainsRegex("all` shows every table(.|\n)* " +
-                                                     finding.at("id").get<std::string>() + "[,.]")));
+    const bool is_shown = page.find(finding.at("title").get<std::string>()) != std::string::npos;
+    EXPECT_TRUE(is_shown || left.find(finding.at("id").get<std::string>()) != std::string::npos) << finding.at("id");
     EXPECT_THAT(all, HasSubstr(finding.at("title").get<std::string>()));
   }
 }

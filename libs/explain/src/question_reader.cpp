@@ -84,10 +84,14 @@ std::vector<Token> Reader::with_worlds(std::vector<Token> tokens) const {
     auto before = i;
     while (before > 0 && tokens[before - 1].text == "the") --before;
     const bool is_introduced = before > 0 && means(meanings_of(tokens[before - 1].text), kIn);
-    auto world = tokens[i].kind == TokenKind::kQuoted ? domain_.find_world(tokens[i].text) : std::nullopt;
-    const bool is_state = world && !map_ && std::ranges::count(all_states(domain_), tokens[i].text) > 0;
-    if (is_state && !(i > 0 && tokens[i - 1].text == "world")) world.reset();
-    std::size_t length = 1;
+    std::size_t world = 0, length = 0;
+    if (tokens[i].kind == TokenKind::kQuoted) {
+      const auto found = domain_.find_world(tokens[i].text);
+      const bool is_said = i > 0 && tokens[i - 1].text == "world";
+      if (!found || (!is_said && !map_ && std::ranges::count(all_states(domain_), tokens[i].text) > 0)) continue;
+      world = found->value();
+      length = 1;
+    }
     for (std::size_t m = 0; m < names.size() && tokens[i].kind != TokenKind::kQuoted; ++m) {
       auto at = i;
       for (const auto& word : names[m]) {
@@ -98,14 +102,14 @@ std::vector<Token> Reader::with_worlds(std::vector<Token> tokens) const {
       }
       const auto n = names[m].size();
       if (n == 0 || at > tokens.size() || (n == 1 && (!is_introduced || tokens[i].kind == TokenKind::kNumber)) ||
-          (world && n <= length))
+          n <= length)
         continue;
-      world = MdpIndex{m};
+      world = m;
       length = at - i;
     }
-    if (!world) continue;
+    if (length == 0) continue;
     const auto place = place_of({tokens[i], tokens[i + length - 1]});
-    tokens[i] = {TokenKind::kWorld, tokens[i].text, world->value(), 0, place};
+    tokens[i] = {TokenKind::kWorld, tokens[i].text, world, 0, place};
     const auto next = tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1;
     tokens.erase(next, next + static_cast<std::ptrdiff_t>(length) - 1);
   }
