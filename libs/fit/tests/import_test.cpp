@@ -286,7 +286,7 @@ TEST(Trials, CanBeFitted) {
   options.num_gains = 3;
   options.num_draws = 10;
   options.folds = 0;
-  const auto report = fit_learners(imported.logs, options);
+  const auto report = fit_learners(imported, options);
   ASSERT_EQ(report.types.size(), 1u);
   EXPECT_EQ(report.types[0].name, "all");
   EXPECT_EQ(report.people.size(), 4u);
