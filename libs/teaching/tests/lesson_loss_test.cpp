@@ -52,7 +52,7 @@ TEST_F(LessonLossTest, OfNothingIsTheLogarithmOfTheExpectedRegret) {
 
 TEST_F(LessonLossTest, FallsWithWhatIsShownAndWithAbility) {
   double before = std::numeric_limits<double>::infinity();
-  for (const double ability : {0.6, 0.8, 0.95}) {
+  for (const double ability : {0.75, 0.85, 0.95}) {
     auto loss = loss_of({{{1.0, &novice_, ability, ability}}}, {1});
     const double after = after_everything(loss);
     EXPECT_LT(after, loss.of(loss.before()));

@@ -35,7 +35,9 @@ std::vector<std::vector<Answer>> answers_to(const Session& session, bool right) 
 TEST(Mastery, FixedTeachesEveryComponentEquallyLong) {
   TeachingCache cache{item_delivery()};
   for (const bool right : {true, false}) {
-    auto session = session_of_two(cache, "plan", {.mastery = stop_rule_named("fixed"), .periods_per_component = 2});
+    auto session = session_of_two(
+        cache, "plan",
+        {.scaffold = Scaffold::kFeatures, .mastery = stop_rule_named("fixed"), .periods_per_component = 2});
     while (session.propose(cache)) session.submit(answers_to(session, right));
     EXPECT_EQ(session.status(), SessionStatus::kComplete);
     ASSERT_EQ(session.periods(), 6u);

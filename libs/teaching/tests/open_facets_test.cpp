@@ -148,6 +148,7 @@ TEST(OpenFacets, NoStrategySkipsWhatCouldBeShown) {
         TeachingCache cache{atlas_of(domain)};
         auto options = options_with(1);
         options.filter.particles = 50;
+        options.scaffold = Scaffold::kFeatures;
         auto session = session_of(cache, kind.name, options, seed);
         teach_right(session, cache);
         const auto shown = all_shown(session, cache);
