@@ -228,7 +228,7 @@ class RoomChange {
     after_departure(e);
   }
 
-  // By a stand-in or, in versions before, by somebody who waited.
+  // By a reserve, or by a stand-in.
   template <typename Departure>
   void take_over(std::size_t member, const Departure& e) {
     if (e.type) {
@@ -242,10 +242,10 @@ class RoomChange {
   void after_departure(const Departure& e) {
     const auto& dropout = study_.group().dropout;
     const bool has_reserve = e.by && !e.type;
-    if (dropout.policy == DropoutPolicy::kEndGroup && !has_reserve) {
+    if (dropout.without_reserve() == DropoutPolicy::kEndGroup && !has_reserve) {
       return step_.end("member-left", "Somebody in your group had to stop, so the session is over for everybody.");
     }
-    const auto least = dropout.policy == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
+    const auto least = dropout.without_reserve() == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
     if (num_active_people(state_) < least) {
       step_.end("too-few", "Too few people are left in your group to go on.");
     }

@@ -27,21 +27,13 @@ std::vector<std::size_t> numbers_of(const TaughtPerson& person) {
   return numbers;
 }
 
-// Sessions of versions before have people who took a place over.
 TEST(TaughtPeople, AreToldApartThoughTheyHadTheSamePlace) {
-  Play play{live_study()};
-  play.start(3);
+  Play play{live_study("[group]\ndropout = { policy = \"replace-from-pool\", grace_s = 20, reserves = 1 }\n")};
+  play.join(4);
+  for (const std::size_t i : {1u, 2u, 4u, 3u}) play.get_ready(i);
   while (play.room().session().periods() < 2) play.play_on({1, 2, 3}, false, 1);
   play.play_on({1, 2, 3}, false, 1);  // to the next lesson
-  const auto add = [&](const std::string& actor, RoomHappening what) {
-    play.apply({play.events().size() + 1, play.now(), actor, std::move(what)});
-  };
-  add("server",
-      happening::Seated{4, std::nullopt, {{"room", "r9"}, {"seat", 1}}, "1", Json::object(), "", {}, play.now()});
-  happening::Left left;
-  left.by = 4;
-  add("seat:2", left);
-  play.settle();
+  ASSERT_EQ(play.seat(2, "leave"), "");
   while (play.room().session().periods() < 4) play.play_on({1, 3, 4}, false, 1);
 
   const auto people = people_of(play);

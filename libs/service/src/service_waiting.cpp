@@ -126,6 +126,70 @@ void LiveService::State::seat_group(const StoredRoom& stored, const std::vector<
   room->rebuild(events);
 }
 
+std::optional<HostedRoom::Request> LiveService::State::call_into(const Room& list, const Room& group,
+                                                                 const Vacancy& vacancy, const RoomEvent& departure,
+                                                                 const std::string& message) const {
+  const auto seat = list.next_for(vacancy.type);
+  if (!seat) return std::nullopt;
+  {
+    const std::lock_guard lock{mutex};
+    // Only if the list has lost its last events: the person has a place already.
+    if (moved.count({room_number(list.setup().id), static_cast<std::int64_t>(*seat)}) != 0) return std::nullopt;
+  }
+  HostedRoom::Request request;
+  for (const auto& event : group.replaced(departure, list.person_for(*seat), now_us())) {
+    request.with.events.push_back(to_stored(room_number(group.setup().id), event));
+  }
+  if (!message.empty()) request.with.events.back().message = message;
+  request.command = {.actor = "server",
+                     .type = "call",
+                     .body = {{"seat", *seat},
+                              {"room", group.setup().id},
+                              {"for", vacancy.seat},
+                              {"type", std::string{vacancy.type}},
+                              {"why", vacancy.why}},
+                     .id = {}};
+  return request;
+}
+
+// One transaction for both rooms: the list's event, and those of the group. The group stands still meanwhile, so its
+// events are the next ones when they are saved.
+void LiveService::State::on_vacancy(HostedRoom& room, const Vacancy& vacancy) {
+  const auto list = room_of(waiting_list);
+  if (!list) return room.depart();
+  const auto group = room.shared_from_this();
+  // Both are set by make(), on the strand of the list, and read by the answer to it.
+  const auto events = std::make_shared<std::vector<RoomEvent>>();
+  const auto make = [this, events, state = *room.room(), vacancy, departure = room.departure(),
+                     message = room.departure_message()](const Room& waiting) -> std::optional<HostedRoom::Request> {
+    try {
+      auto request = call_into(waiting, state, vacancy, departure, message);
+      if (!request) return std::nullopt;
+      for (const auto& event : request->with.events) events->push_back(room_event_of(event));
+      return request;
+    } catch (const std::exception& error) {
+      on_trouble(waiting_list, std::string{"nobody can be called from the waiting list: "} + error.what());
+      return std::nullopt;
+    }
+  };
+  const auto done = [this, group, events](const CommandOutcome& outcome) {
+    const bool is_filled = !outcome.events.empty();
+    if (is_filled) {
+      const std::lock_guard lock{mutex};
+      const auto body = body_of(events->front());
+      move_person(origin_of(body), {group->number(), static_cast<std::int64_t>(count_at(body, "seat"))});
+    }
+    post(group->number(), [group, events, is_filled](TeachingCache& cache) {
+      if (is_filled) {
+        group->fill(*events, cache);
+      } else {
+        group->depart();
+      }
+    });
+  };
+  post(waiting_list, [list, make, done](TeachingCache&) { list->ask_when_ready(make, done); });
+}
+
 void LiveService::State::move_person(const Place& from, const Place& to) {
   moved[from] = to;
   came_from[to] = from;

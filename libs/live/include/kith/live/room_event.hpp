@@ -54,7 +54,7 @@ inline constexpr bool kLogged = true, kUnlogged = false;
 inline constexpr PersonalMember kItsQuery{"query", PersonalMember::What::kQuery};
 inline constexpr PersonalMember kItsName{"name", PersonalMember::What::kNameIfAny};
 
-/// Somebody took a free seat; in versions before also: waits in reserve.
+/// Somebody took a free seat, or waits in reserve.
 struct Joined {
   static constexpr RoomEventKind kKind{"joined", "join", kServer, kLogged};
   std::size_t seat = 0;
@@ -243,10 +243,10 @@ struct Grouped {
                                        "room",      &Grouped::room};
 };
 
-/// Of versions before, on a waiting list: the person takes over seat `whose` of a room that has begun; `type` is that
-/// of the place, `why` "left" or "away".
+/// On a waiting list: the person takes over seat `whose` of a room that has begun; `type` is that of the place, `why`
+/// "left" or "away".
 struct Called {
-  static constexpr RoomEventKind kKind{"called", "", kServer, kLogged};
+  static constexpr RoomEventKind kKind{"called", "call", kServer, kLogged};
   std::size_t seat = 0;
   std::string room;
   std::size_t whose = 0;
@@ -255,8 +255,7 @@ struct Called {
                                        &Called::whose, "type",        &Called::type, "why",         &Called::why};
 };
 
-/// Somebody from the waiting list has the place; in versions before also, without a member, takes over that of the
-/// departure that follows.
+/// Somebody from the waiting list has the place or, without a member, takes over that of the departure that follows.
 /// `from` is {room, seat} there, the rest what the room has to know of them.
 struct Seated {
   static constexpr RoomEventKind kKind{"seated", "seat", kServer, kUnlogged, true, false, {kItsQuery, kItsName}};
@@ -417,6 +416,8 @@ struct RoomEvent {
 /// What somebody asks for. Types of seats and facilitators are those of docs/live-protocol.md; those of the server:
 ///   join {seat?}           takes a free seat: that one, or any; the event tells which
 ///   group {room, ...}      on a waiting list: what Room::next_group() plans is done; the body is that of the event
+///   call {seat, ...}       on a waiting list: the person whom Room::next_for() names is called; the body is that of
+///                          the event
 ///   seat {member, ...}     gives the place of a member to somebody from a waiting list, see Room::person_for()
 ///   away {seat}, present {seat}
 struct RoomCommand {
