@@ -19,7 +19,7 @@ const RUNS = {
   plan: [['plan'], ...MANY],
   asking: [['plan'], ...MANY, 'teacher.hypotheses="kinds"'],
 };
-const runFor = (domain, run) => study(MINDS, `domain="${DOMAINS[domain]}"`, `design.strategies=${JSON.stringify(RUNS[run][0])}`, 'replicates=50', ...RUNS[run].slice(1));
+const runFor = (domain, run) => study(MINDS, `domain="${DOMAINS[domain]}"`, `design.strategies=${JSON.stringify(RUNS[run][0])}`, 'replicates=25', ...RUNS[run].slice(1));
 // How groups talk, and the order in which strategies took real groups the fewest rounds, with their number of groups.
 const TALKS = ['none', 'degroot', 'majority', 'truth-wins'];
 const ORDER = { common: 5, joint: 5, 'individual-high': 4, 'individual-low': 4 };

@@ -205,7 +205,9 @@ class LessonSearch {
           std::ranges::any_of(candidate.classes, [&](auto c) { return has_unvisited(atlas_, c, lesson.met); });
       auto longer = lesson.product;
       show(lesson, candidate.conveyed, longer);
-      (is_new ? fresh : known).push_back({loss_.of(longer, imitation_ ? imitation_->now() : 0.0), i});
+      // What imitators copy depends on the start, which else is chosen by its looks once it matters.
+      const double imitating = imitation_ ? imitation_->with(start_of(candidate, lesson)) : 0.0;
+      (is_new ? fresh : known).push_back({loss_.of(longer, imitating), i});
     }
     const auto falls = [&](const Rated& one) { return one.loss < nothing_ - kTie; };
     auto& rated = std::ranges::any_of(fresh, falls) || known.empty() ? fresh : known;
@@ -335,16 +337,28 @@ class LessonSearch {
     return chosen;
   }
 
-  // The starts that examine some of these, each once; bit i of covered_ says that one examines members[i].
+  // The starts that examine some of these, each once; bit i of covered_ says that one examines members[i]. Where people
+  // bring up what no start tests, those examine it whose demonstration would convey it.
   [[nodiscard]] std::vector<StartIndex> examining(const std::vector<ConstraintIndex>& members) {
     const auto& component = atlas_.knowledge_components()[view_.component];
     std::vector<StartIndex> starts;
+    const auto examine = [&](StartIndex start, std::size_t i) {
+      auto& covered = covered_[start.value()];
+      if (covered == 0) starts.push_back(start);
+      covered |= std::uint64_t{1} << i;
+    };
     for (std::size_t i = 0; i < members.size(); ++i) {
+      bool is_tested = false;
       for (const auto start : atlas_.tests_for(members[i])) {
         if (!component.uses_mdp[atlas_.id(start).mdp.value()]) continue;
-        auto& covered = covered_[start.value()];
-        if (covered == 0) starts.push_back(start);
-        covered |= std::uint64_t{1} << i;
+        is_tested = true;
+        examine(start, i);
+      }
+      for (const auto& candidate : candidates_) {
+        if (is_tested || !candidate.conveyed.contains(members[i])) continue;
+        for (const auto c : candidate.classes) {
+          for (const auto start : atlas_.members(c)) examine(start, i);
+        }
       }
     }
     return starts;

@@ -24,8 +24,8 @@ struct FindingsReading {
   std::optional<std::vector<PublishedFinding>> findings;  ///< Unless there are errors.
   std::vector<Diagnostic> diagnostics;
 };
-/// Parses the findings of a targets file (schema kith.targets/1, see docs/power.md) and checks them against a study; its
-/// targets and parameters are for `research/calibrate.py`. Never throws for bad content.
+/// Parses the findings of a targets file (schema kith.targets/1, see docs/power.md) and checks them against a study;
+/// its targets and parameters are for `research/calibrate.py`. Never throws for bad content.
 [[nodiscard]] FindingsReading parse_findings(std::string_view text, const std::string& name, const StudySpec& spec);
 
 }  // namespace kith
