@@ -27,7 +27,7 @@ int run(const ExplainOptions& options, Console& console) {
 }  // namespace
 
 void add_explain(Commands& commands) {
-  commands.add<ExplainOptions>("explain", "List kinds of learners, strategies, rules and talk, with their parameters",
+  commands.add<ExplainOptions>("explain", "List kinds of learners, strategies, rules, talk",
                                {"kith explain strategies", "kith explain learners"}, declare, run);
 }
 

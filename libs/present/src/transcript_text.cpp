@@ -84,7 +84,8 @@ class TranscriptWriter {
          (component.masked.empty() ? "" : ", where there is no " + masked_names(domain_, component)));
     if (begins) line("  new component: every member's ability is reset to its initial value");
     reason(lesson);
-    for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i) demonstration(i + 1, lesson.demonstrations[i]);
+    for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i)
+      demonstration(i + 1, lesson.demonstrations[i], lesson.source.is_everybody());
     taught(lesson);
     for (std::size_t t = 0; t < lesson.tests.size(); ++t) test(period, t);
     beliefs(period);
@@ -156,7 +157,8 @@ class TranscriptWriter {
     return words.empty() ? "" : " (" + words + ")";
   }
 
-  void demonstration(std::size_t number, const Demonstration& shown) {
+  // @param is_for_everybody  whether the lesson was chosen as a whole, by what all members are expected to make of it.
+  void demonstration(std::size_t number, const Demonstration& shown, bool is_for_everybody) {
     const auto id = atlas_.id(shown.demo);
     const auto path = atlas_.trajectory(shown.demo);
     const auto& counts = atlas_.feature_counts(shown.demo);
@@ -167,9 +169,14 @@ class TranscriptWriter {
     line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), return_of(domain_, counts)));
     line("    conveys:");
     for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
-    line(fmt::format("    chosen because it adds the fewest new constraints: {}{}", shown.num_new,
-                     shown.half_spaces.size() > shown.num_new ? " (the others are implied or known)" : ""));
-    line(fmt::format("    and among those, narrows what people may believe the most ({:.3g}-fold)", shown.gain));
+    const auto* others = shown.half_spaces.size() > shown.num_new ? " (the others are implied or known)" : "";
+    if (is_for_everybody) {
+      line(fmt::format("    new constraints: {}{}", shown.num_new, others));
+      line(fmt::format("    narrows what people may believe {:.3g}-fold", shown.gain));
+    } else {
+      line(fmt::format("    chosen because it adds the fewest new constraints: {}{}", shown.num_new, others));
+      line(fmt::format("    and among those, narrows what people may believe the most ({:.3g}-fold)", shown.gain));
+    }
   }
 
   void taught(const Lesson& lesson) {

@@ -100,8 +100,8 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.filter.resample_below, 0.5);
   EXPECT_EQ(spec.teaching.max_periods, 50u);
   EXPECT_EQ(spec.teaching.mastery, stop_rule_named("all-right"));
-  EXPECT_EQ(spec.teaching.scaffold, Scaffold::kFeatures);
-  EXPECT_EQ(spec.teaching.objective, TeachingObjective::kRight);
+  EXPECT_EQ(spec.teaching.scaffold, Scaffold::kOfStrategy);
+  EXPECT_EQ(spec.teaching.objective, TeachingObjective::kRegret);
   EXPECT_EQ(spec.teaching.max_demonstrations, 0u);
   EXPECT_FALSE(spec.teaching.review);
   EXPECT_EQ(spec.exam, ExamLevel::kNone);
