@@ -78,6 +78,10 @@ TEST(Room, RefusesASetUpThatCannotBeTaught) {
   EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NX"}), HasSubstr("no learner type 'X'"));
   EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = ""}), HasSubstr("1 to 30 seats"));
   EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NN", .simulated = {true}}), HasSubstr("seats"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "adaptive", .composition = "NN", .lessons = 1}),
+              HasSubstr("open the folder with the version that began it"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NN", .lessons = 99}),
+              HasSubstr("newer version"));
   const RoomSetup setup{.id = "r",
                         .code = "c",
                         .strategy = "common",
