@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "kith/random/distributions.hpp"
+
 namespace kith {
 namespace {
 
@@ -42,7 +44,10 @@ UnitProposal CurriculumStrategy::propose(const TeachingView& view, UnitSelector&
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return view.tie_breaks[a] < view.tie_breaks[b]; });
   std::vector<const ParticleBelief*> beliefs;
   for (const auto i : order) beliefs.push_back(&view.belief.member(i));
-  const auto people = imagine_people(select.cache(), beliefs, {people_, people_}, random.split("people"));
+  const auto drawn = random.split("people");
+  auto of_prior = drawn.split("prior");
+  const auto people =
+      imagine_people(select.cache(), beliefs, {people_, people_}, uniform01(of_prior), drawn.split("beliefs"));
   const auto most = view.options.max_demonstrations > 0 ? view.options.max_demonstrations : demonstrations_;
   const auto ranked = ranking(view, random.split("ranking"));
   Unit unit;

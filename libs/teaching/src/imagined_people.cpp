@@ -31,7 +31,7 @@ void ImaginedPeople::add(Behaviours& behaviours, const Direction& person) {
 }
 
 ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
-                              const NumImagined& num, RandomStream random) {
+                              const NumImagined& num, double prior_offset, RandomStream random) {
   std::vector<Direction> drawn;
   const auto& cover = cache.cover(cache.atlas().prior_cone(), beliefs.front()->size());
   const auto positions = [](std::size_t n, double offset) {
@@ -42,7 +42,7 @@ ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBeli
   const auto at = [](double position, std::size_t size) {
     return std::min(static_cast<std::size_t>(position * static_cast<double>(size)), size - 1);
   };
-  for (const double position : positions(num.prior, 0.5)) {
+  for (const double position : positions(num.prior, prior_offset)) {
     drawn.push_back(cover.point(at(position, cover.size())));
   }
   for (const double position : positions(num.beliefs, uniform01(random))) {

@@ -22,10 +22,11 @@ struct NumImagined {
   std::size_t beliefs = 0;
 };
 
-// Systematic draws from the prior, the same in every lesson, and from the beliefs together, each weighing the same.
+// Systematic draws from the prior and from the beliefs together, each belief weighing the same.
+// @param prior_offset  of the draws from the prior, in [0, 1); with the same one the same people are drawn.
 // @param beliefs  in an order that does not depend on seats. Not empty.
 [[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
-                                            const NumImagined& n, RandomStream random);
+                                            const NumImagined& n, double prior_offset, RandomStream random);
 
 // What is open of `facets` where `shown`, which is minimal, is known.
 [[nodiscard]] ConstraintSet open_facets(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown);

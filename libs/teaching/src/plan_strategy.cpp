@@ -136,13 +136,14 @@ class Plan : public Strategy {
       if (likeliest != members[i].end()) beliefs.push_back(likeliest->belief);
     }
     std::vector<ImaginedPeople> groups;
-    groups.push_back(imagine_people(cache, beliefs, {.beliefs = people_}, random.split("beliefs")));
-    groups.push_back(imagine_people(cache, beliefs, {people_, people_}, random.split("both")));
+    constexpr double kSame = 0.5;  // the same people of the prior in every lesson, whose behaviour is known then
+    groups.push_back(imagine_people(cache, beliefs, {.beliefs = people_}, kSame, random.split("beliefs")));
+    groups.push_back(imagine_people(cache, beliefs, {people_, people_}, kSame, random.split("both")));
     groups.push_back(groups.back());
     const auto& facets = view.atlas.knowledge_components()[view.component].constraints;
     imagine_near_misses(cache, facets | view.atlas.prior(), facets, kMiss, groups.back());
     for (const auto* which : {"few", "few others"}) {
-      groups.push_back(imagine_people(cache, beliefs, {.beliefs = kFew}, random.split(which)));
+      groups.push_back(imagine_people(cache, beliefs, {.beliefs = kFew}, kSame, random.split(which)));
     }
     return groups;
   }
