@@ -143,6 +143,9 @@ class FacilitatorDecider {
     if (found->is_baseline() && state_.members.size() > 1) {
       return refused("no-strategy", "The baseline teaches one person at a time.");
     }
+    if (found->kind.name == "plan" && room_.setup.lessons < 2) {
+      return refused("no-strategy", "This room was set up by an older version, whose 'plan' chose other lessons.");
+    }
     if (!is_running(state_) && state_.phase != RoomPhase::kLobby) return not_now("The lessons are over.");
     return accepted(StrategyNamed{*name, reason_});
   }
