@@ -1,20 +1,21 @@
 #include "likelihood_integrals.hpp"
 
+#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace kith::detail {
 namespace {
 
-// int_0^upper value(sin u) cos(u)^(d-2) du of a function that falls or rises by at most about exp(60) on the way, so
-// that it is smooth in each part: quadrature over the whole right angle would miss a narrow peak at 0.
-template <typename Function>
-double integral(std::size_t dimension, double upper, Function value) {
-  const auto power = static_cast<int>(dimension) - 2;
-  const auto integrand = [&](double u) { return value(std::sin(u)) * std::pow(std::cos(u), power); };
+constexpr double kRightAngle = std::numbers::pi / 2.0;
+
+// Quadrature over [0, upper] in parts.
+template <typename Integrand>
+double over_parts(double upper, Integrand integrand) {
   constexpr int kParts = 4;
   const double width = upper / kParts;
   double sum = 0.0;
@@ -23,7 +24,44 @@ double integral(std::size_t dimension, double upper, Function value) {
   return sum;
 }
 
-constexpr double kRightAngle = std::numbers::pi / 2.0;
+// What the integrand below needs of u.
+struct Node {
+  double sine;
+  double power;  // cos(u)^(d-2)
+};
+Node node_at(double u, std::size_t dimension) {
+  return {std::sin(u), std::pow(std::cos(u), static_cast<int>(dimension) - 2)};
+}
+
+// The nodes of a right angle, in the order in which quadrature asks for them.
+std::vector<Node> nodes_of_right_angle(std::size_t dimension) {
+  std::vector<Node> nodes;
+  (void)over_parts(kRightAngle, [&](double u) { return nodes.push_back(node_at(u, dimension)), 0.0; });
+  return nodes;
+}
+
+// int_0^upper value(sin u) cos(u)^(d-2) du of a function that falls or rises by at most about exp(60) on the way, so
+// that it is smooth in each part: quadrature over the whole right angle would miss a narrow peak at 0.
+template <typename Function>
+double integral(std::size_t dimension, double upper, Function value) {
+  if (upper < kRightAngle) {
+    return over_parts(upper, [&](double u) {
+      const auto [sine, power] = node_at(u, dimension);
+      return value(sine) * power;
+    });
+  }
+  constexpr std::size_t kMostDimensions = 8;
+  static const auto kNodes = [] {
+    std::array<std::vector<Node>, kMostDimensions + 1> nodes;
+    for (std::size_t d = 2; d <= kMostDimensions; ++d) nodes[d] = nodes_of_right_angle(d);
+    return nodes;
+  }();
+  const auto* node = kNodes.at(dimension).data();
+  return over_parts(upper, [&](double) {
+    const auto [sine, power] = *node++;
+    return value(sine) * power;
+  });
+}
 
 // exp(-kappa) far_integral(-kappa): the near half, relative to its largest density.
 double scaled_near_integral(double kappa, std::size_t dimension) {
