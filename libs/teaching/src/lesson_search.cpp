@@ -22,6 +22,10 @@ constexpr std::size_t kFirstKept = 12;     // candidates to which tests are adde
 constexpr std::size_t kLaterKept = 4;      // the same of those that are added to a lesson
 constexpr std::size_t kMostExamined = 64;  // constraints of which tests are chosen
 
+// Whether a lesson is made longer: it has to lower the loss by a quarter more per item, as after the shorter one the
+// teacher knows answers.
+bool is_worth(double longer, double shorter) { return longer > shorter + 0.25 * std::abs(shorter); }
+
 // Demonstrations that convey the same to one of the groups.
 struct Candidate {
   ConstraintSet conveyed;                  // minimal
@@ -138,7 +142,7 @@ class LessonSearch {
     Lesson lesson{.met = view_.visited, .product = loss_.before()};
     while (lesson.shown.size() < limits_.demonstrations) {
       auto longer = extended(lesson);
-      if (!longer || (!lesson.shown.empty() && !(longer->ratio > lesson.ratio + kTie))) break;
+      if (!longer || (!lesson.shown.empty() && !is_worth(longer->ratio, lesson.ratio))) break;
       lesson = *std::move(longer);
       if (imitation_) imitation_->add(lesson.shown.back().demo);
     }
@@ -290,7 +294,7 @@ class LessonSearch {
       }
       if (best == nullptr) break;
       const double longer_ratio = ratio(least, longer.tests.size() + 1);
-      if (!longer.tests.empty() && !(longer_ratio > longer.ratio + kTie)) break;
+      if (!longer.tests.empty() && !is_worth(longer_ratio, longer.ratio)) break;
       longer.ratio = longer_ratio;
       loss_.repeat(product, best->covered.without(heard));
       heard |= best->covered;
