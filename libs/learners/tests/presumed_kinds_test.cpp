@@ -104,7 +104,7 @@ TEST(PresumedKinds, AreTheSameFromOutside) {
                                 {3, 4}, 4, {&talk, ParameterValues{talk.parameters}});
     for (std::size_t i = 0; i < 2; ++i) {
       const auto seen =
-          kinds_after(cache, options, observed_periods(session.history(), i), RandomStream{3 + i}.split("bank"));
+          kinds_after(cache, options, observed_periods(session.history(), i), RandomStream{1}.split("bank"));
       EXPECT_EQ(seen, session.bank()->member(i).kinds()) << talk.name;
     }
   }

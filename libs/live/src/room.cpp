@@ -38,6 +38,7 @@ std::shared_ptr<const Session> make_session(const LiveStudy& study, const RoomSe
   options.keep_members = true;  // facilitators see all beliefs, and may change the strategy
   options.keep_rules = true;
   options.avoids_repeats = setup.lessons >= 1;
+  options.shares_bank = setup.lessons >= 3;
   const auto team = team_stream(study.spec, address_of(setup));
   std::vector<RandomStream> beliefs;
   for (std::size_t m = 0; m < setup.composition.size(); ++m) {
@@ -57,6 +58,11 @@ void check_setup(const LiveStudy& study, const RoomSetup& setup) {
   if (is_planner && setup.lessons < 2) {
     refuse_setup("room " + setup.id + " was taught by '" + setup.strategy +
                  "' of an older version, which chose other lessons: open the folder with the version that began it");
+  }
+  if (study.spec.teaching.mastery.kind.name == "exam" && setup.lessons < 3) {
+    refuse_setup(
+        "room " + setup.id +
+        " was set up by an older version, whose stop rule 'exam' was another: open the folder with that version");
   }
   if (setup.lessons > RoomSetup::kLessonRules) {
     refuse_setup("room " + setup.id + " was set up by a newer version of kith: open the folder with that version");

@@ -68,7 +68,8 @@ class UsualLearner final : public PresumedLearner {
         random_{random},
         h_{h},
         ability_{hypothesis.ability},
-        belief_{start.cover, start.filter} {
+        belief_{start.cover, start.filter},
+        now_{likelihood_with(ability_)} {
     if (hypothesis.known == 0) return;
     belief_.observe(known_half_spaces(start.components, hypothesis.known),
                     HalfSpaceLikelihood{kAbilityOfKnowing, likelihood_, belief_.dimension()},
@@ -78,13 +79,13 @@ class UsualLearner final : public PresumedLearner {
   [[nodiscard]] std::unique_ptr<PresumedLearner> clone() const override {
     return std::make_unique<UsualLearner>(*this);
   }
-  void begin_component() override { ability_ = hypothesis_.ability; }
+  void begin_component() override { learn_with(hypothesis_.ability); }
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period) override {
     observe(half_spaces, random_.split("watch").split(period));
   }
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) override {
     const double grown = ability_ + (all_correct ? hypothesis_.confirm_gain : hypothesis_.correct_gain);
-    ability_ = std::max(ability_, std::min(grown, detail::kHighestAbility));
+    learn_with(std::max(ability_, std::min(grown, detail::kHighestAbility)));
     observe(half_spaces, random_.split("feedback").split(period));
   }
   [[nodiscard]] double likelihood(const AnswerFit& fit, PointCells& cells) const override {
@@ -100,9 +101,14 @@ class UsualLearner final : public PresumedLearner {
 
  private:
   void observe(std::span<const HalfSpace> half_spaces, const RandomStream& random) {
-    belief_.observe(half_spaces,
-                    HalfSpaceLikelihood{std::min(ability_, detail::kCertain), likelihood_, belief_.dimension()},
-                    random.split(h_));
+    belief_.observe(half_spaces, now_, random.split(h_));
+  }
+  void learn_with(double ability) {
+    if (ability != ability_) now_ = likelihood_with(ability);
+    ability_ = ability;
+  }
+  [[nodiscard]] HalfSpaceLikelihood likelihood_with(double ability) const {
+    return HalfSpaceLikelihood{std::min(ability, detail::kCertain), likelihood_, belief_.dimension()};
   }
 
   LearnerHypothesis hypothesis_;
@@ -111,6 +117,7 @@ class UsualLearner final : public PresumedLearner {
   std::size_t h_;
   double ability_;  // now
   ParticleBelief belief_;
+  HalfSpaceLikelihood now_;  // at that ability
 };
 
 std::string_view kind_of(const LearnerHypothesis& hypothesis) {
@@ -158,8 +165,8 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
   const PresumedStart start{cover, filter, likelihood, components};
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
     const auto& one = hypotheses_[h];
-    people_.emplace_back(one.kind ? one.kind->make(one, start, random.split("kind").split(h))
-                                  : std::make_unique<UsualLearner>(one, start, random, h));
+    people_.push_back({one.kind ? one.kind->make(one, start, random.split("kind").split(h))
+                                : std::make_unique<UsualLearner>(one, start, random, h)});
   }
   if (hypotheses_.size() > 1) {
     others_ = NonLearners{ParticleBelief{cover, filter}};
@@ -171,19 +178,38 @@ std::vector<double> LearnerBank::weights_beforehand() const { return shares_of(h
 
 std::vector<KindProbability> LearnerBank::kinds() const { return by_kind(hypotheses_, weights_); }
 
-void LearnerBank::begin_component() {
-  for (auto& one : people_) one.person->begin_component();
+template <typename Change>
+void LearnerBank::change_all(Changed* changed, Change change, bool usual) {
+  Changed own;
+  if (changed == nullptr) changed = &own;
+  for (std::size_t h = 0; h < people_.size(); ++h) {
+    if (!usual && !hypotheses_[h].kind) continue;
+    auto& one = people_[h];
+    auto& next = (*changed)[one.person];
+    if (!next) {
+      auto copy = one.person->clone();
+      change(*copy);
+      next = std::move(copy);
+    }
+    one.person = next;
+  }
 }
 
-void LearnerBank::let_time_pass(double minutes, std::size_t period) {
-  for (auto& one : people_) one.person->let_time_pass(minutes, period);
+void LearnerBank::begin_component(Changed* changed) {
+  change_all(changed, [](PresumedLearner& person) { person.begin_component(); });
 }
 
-void LearnerBank::see(const Atlas& atlas, std::span<const StartIndex> demonstrations) {
-  for (auto& one : people_) one.person->see(atlas, demonstrations);
+void LearnerBank::let_time_pass(double minutes, std::size_t period, Changed* changed) {
+  change_all(
+      changed, [&](PresumedLearner& person) { person.let_time_pass(minutes, period); }, false);
 }
 
-void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t period) {
+void LearnerBank::see(const Atlas& atlas, std::span<const StartIndex> demonstrations, Changed* changed) {
+  change_all(
+      changed, [&](PresumedLearner& person) { person.see(atlas, demonstrations); }, false);
+}
+
+void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t period, Changed* changed) {
   if (has_begun_ && !others_.empty()) {
     const auto likeliest = std::max_element(weights_.begin(), weights_.end()) - weights_.begin();
     const double before = others_.weight();
@@ -191,7 +217,7 @@ void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t peri
     learns_ -= others_.weight() - before;
   }
   has_begun_ = true;
-  for (auto& one : people_) one.person->watch(half_spaces, period);
+  change_all(changed, [&](PresumedLearner& person) { person.watch(half_spaces, period); });
 }
 
 void LearnerBank::see_answers(const AnswerFit& fit) {
@@ -209,8 +235,9 @@ void LearnerBank::see_answers(const AnswerFit& fit) {
   others_.scale(1.0 / sum);
 }
 
-void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {
-  for (auto& one : people_) one.person->hear_feedback(all_correct, half_spaces, period);
+void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period,
+                                Changed* changed) {
+  change_all(changed, [&](PresumedLearner& person) { person.hear_feedback(all_correct, half_spaces, period); });
 }
 
 std::vector<MemberHypothesis> LearnerBank::as_members(bool begins) const {
@@ -308,6 +335,22 @@ double LearnerBank::mass_in(std::span<const HalfSpace> half_spaces) const {
   mass *= learns_;
   for (const auto& [weight, share] : others_.shares(half_spaces)) mass += weight * share;
   return mass;
+}
+
+double LearnerBank::probability_of_at_least(double share,
+                                            const std::function<double(const ParticleBelief&)>& share_right) const {
+  constexpr double kUnlikely = 1e-4;  // counts as not sharing enough
+  double probability = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if (weights_[h] < kUnlikely) continue;
+    const double own = 1.0 - people_[h].person->as_member(false).imitation.probability;
+    if (own * share_right(belief(h)) >= share) probability += learns_ * weights_[h];
+  }
+  for (const auto& state : others_.states()) {
+    if (state.weight < kUnlikely || !state.belief) continue;
+    if (share_right(*state.belief) >= share) probability += state.weight;
+  }
+  return probability;
 }
 
 }  // namespace kith

@@ -82,10 +82,16 @@ void LessonLoss::add_part(std::size_t member, const MemberHypothesis& hypothesis
     for (std::size_t k = 0; k < dimension_; ++k) axes_[k].push_back(belief.axis(k)[draw.index]);
     mass_.push_back(static_cast<double>(draw.count));
   }
-  parts_.push_back(
-      {member, hypothesis.weight, hypothesis.imitation, begin, mass_.size(),
-       HalfSpaceLikelihood{std::min(hypothesis.shown_ability, kMostCertain), options_.likelihood, dimension_},
-       HalfSpaceLikelihood{std::min(hypothesis.feedback_ability, kMostCertain), options_.likelihood, dimension_}});
+  parts_.push_back({member, hypothesis.weight, hypothesis.imitation, begin, mass_.size(),
+                    likelihood_with(hypothesis.shown_ability), likelihood_with(hypothesis.feedback_ability)});
+}
+
+// Members alike have the same abilities.
+HalfSpaceLikelihood LessonLoss::likelihood_with(double ability) {
+  const auto known = likelihoods_.find(ability);
+  if (known != likelihoods_.end()) return known->second;
+  const HalfSpaceLikelihood made{std::min(ability, kMostCertain), options_.likelihood, dimension_};
+  return likelihoods_.emplace(ability, made).first->second;
 }
 
 const LessonLoss::Factors& LessonLoss::factors(ConstraintIndex c) {

@@ -69,6 +69,7 @@ class LessonLoss {
   };
 
   void add_part(std::size_t member, const MemberHypothesis& hypothesis, std::size_t points, RandomStream random);
+  [[nodiscard]] HalfSpaceLikelihood likelihood_with(double ability);
   const Factors& factors(ConstraintIndex c);
 
   Options options_;
@@ -80,6 +81,7 @@ class LessonLoss {
   std::vector<double> mass_;               // how often each point was drawn
   std::vector<double> wrong_;              // R
   double floor_ = 0.0;
+  std::unordered_map<double, HalfSpaceLikelihood> likelihoods_;
   std::unordered_map<std::size_t, Factors> factors_;
 };
 

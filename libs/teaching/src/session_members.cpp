@@ -34,7 +34,9 @@ void Session::make_rules(TeachingCache& cache) {
   if (asks_for_kinds) options_.hypotheses = options_.kinds;
   if (!asks_for_kinds && !needs.bank && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
   bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
-                options_.hypotheses, persons_, options_.response_noise, constraints_of_components(*atlas_));
+                options_.hypotheses, persons_,
+                options_.shares_bank ? std::optional{teacher_.split("bank")} : std::nullopt, options_.response_noise,
+                constraints_of_components(*atlas_));
 }
 
 bool Session::awaits_newcomer() const {

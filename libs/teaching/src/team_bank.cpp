@@ -9,10 +9,16 @@ namespace kith {
 
 TeamBank::TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
                    const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons,
-                   double response_noise, std::span<const std::vector<HalfSpace>> components)
-    : likelihood_{likelihood}, response_noise_{response_noise} {
+                   const std::optional<RandomStream>& everybody, double response_noise,
+                   std::span<const std::vector<HalfSpace>> components)
+    : likelihood_{likelihood}, everybody_{everybody}, response_noise_{response_noise} {
   for (const auto& person : persons) {
-    members_.emplace_back(cover, filter, likelihood, hypotheses, person.split("bank"), components);
+    if (everybody && !members_.empty()) {
+      members_.push_back(members_.front());  // with the same people
+    } else {
+      members_.emplace_back(cover, filter, likelihood, hypotheses, everybody ? *everybody : person.split("bank"),
+                            components);
+    }
     informed_.emplace_back(cover, filter);
     random_.push_back(person.split("informed"));
   }
@@ -21,7 +27,8 @@ TeamBank::TeamBank(const PriorCover& cover, const FilterOptions& filter, Likelih
 void TeamBank::restart(std::size_t i, const PriorCover& cover, const FilterOptions& filter,
                        const std::vector<LearnerHypothesis>& hypotheses, const RandomStream& person,
                        std::span<const std::vector<HalfSpace>> components) {
-  members_.at(i) = LearnerBank{cover, filter, likelihood_, hypotheses, person.split("bank"), components};
+  members_.at(i) =
+      LearnerBank{cover, filter, likelihood_, hypotheses, everybody_ ? *everybody_ : person.split("bank"), components};
   informed_[i] = ParticleBelief{cover, filter};
 }
 
@@ -44,12 +51,13 @@ void TeamBank::watch(const Atlas& atlas, const Lesson& lesson, const std::vector
     demos.push_back(shown.demo);
     conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
   }
+  LearnerBank::Changed begun, waited, seen, watched;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (begins(lesson.component)) members_[i].begin_component();
-    if (lesson.period > 1) members_[i].let_time_pass(minutes, lesson.period);
+    if (begins(lesson.component)) members_[i].begin_component(&begun);
+    if (lesson.period > 1) members_[i].let_time_pass(minutes, lesson.period, &waited);
     if (!present[i]) continue;
-    members_[i].see(atlas, demos);
-    members_[i].watch(conveyed, lesson.period);
+    members_[i].see(atlas, demos, &seen);
+    members_[i].watch(conveyed, lesson.period, &watched);
     inform(i, conveyed, random_[i].split(lesson.period).split("demonstration"));
   }
   component_ = lesson.component;
@@ -57,6 +65,7 @@ void TeamBank::watch(const Atlas& atlas, const Lesson& lesson, const std::vector
 
 void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,
                            const Feedback& feedback, const std::vector<bool>& present) {
+  LearnerBank::Changed all_right, not_all_right;
   for (std::size_t i = 0; i < size(); ++i) {
     if (!answers[i].empty()) {
       members_[i].see_answers(AnswerFit{atlas, lesson.tests, answers[i], feedback.verdicts[i]});
@@ -67,7 +76,8 @@ void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<c
       if (!revised.empty()) inform(i, revised, random_[i].split(lesson.period).split("discussion"));
     }
     if (!present[i]) continue;
-    members_[i].hear_feedback(feedback.all_right_in_the_end(i), feedback.half_spaces, lesson.period);
+    const bool right = feedback.all_right_in_the_end(i);
+    members_[i].hear_feedback(right, feedback.half_spaces, lesson.period, right ? &all_right : &not_all_right);
     inform(i, feedback.half_spaces, random_[i].split(lesson.period).split("feedback"));
   }
 }

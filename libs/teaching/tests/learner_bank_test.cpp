@@ -79,6 +79,27 @@ class LearnerBankTest : public ::testing::Test {
   TeachingCache cache_{item_delivery()};
 };
 
+TEST_F(LearnerBankTest, CopiesThatShareAreAsBanksForThemselves) {
+  const auto shown = item_delivery().constraints().half_spaces(item_delivery().knowledge_components()[0].constraints);
+  const auto fresh = bank();
+  std::vector<LearnerBank> shared(3, fresh), alone;
+  for (int i = 0; i < 3; ++i) alone.push_back(bank());
+  for (std::size_t period = 1; period <= 3; ++period) {
+    LearnerBank::Changed watched, right, wrong;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool is_right = i < 2 || period == 1;
+      shared[i].watch(shown, period, &watched);
+      shared[i].hear_feedback(is_right, shown, period, is_right ? &right : &wrong);
+      alone[i].watch(shown, period);
+      alone[i].hear_feedback(is_right, shown, period);
+    }
+  }
+  EXPECT_TRUE(shared == alone);
+  EXPECT_EQ(&shared[0].belief(0), &shared[1].belief(0));
+  EXPECT_NE(&shared[0].belief(0), &shared[2].belief(0));
+  EXPECT_TRUE(fresh == bank());
+}
+
 TEST_F(LearnerBankTest, BeginsWithThePriorOverHypotheses) {
   auto hypotheses = grid_of_hypotheses();
   hypotheses.front().probability = 12.0;

@@ -29,10 +29,11 @@ struct RoomSetup {
   /// Strategy and composition say nothing then.
   bool is_waiting_list = false;
   /// By which rules lessons are chosen, so that a room that was set up by older ones is replayed as it was: before 1
-  /// starts were shown again (TeachingOptions::avoids_repeats); before 2 `plan` was another strategy, so that rooms
-  /// with it are refused.
+  /// starts were shown again (TeachingOptions::avoids_repeats); before 2 `plan` was another strategy and before 3
+  /// `exam` another stop rule, so that rooms with them are refused, and members had banks of their own
+  /// (TeachingOptions::shares_bank).
   std::size_t lessons = kLessonRules;
-  static constexpr std::size_t kLessonRules = 2;
+  static constexpr std::size_t kLessonRules = 3;
 
   friend bool operator==(const RoomSetup&, const RoomSetup&) = default;
 };

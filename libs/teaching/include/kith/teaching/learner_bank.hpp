@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -46,14 +48,19 @@ class LearnerBank {
               std::vector<LearnerHypothesis> hypotheses, RandomStream random,
               std::span<const std::vector<HalfSpace>> components = {});
 
-  void begin_component();
+  /// What has become of people by the same change, for the banks of members who share them: banks that are copies of
+  /// one share the people of their hypotheses for as long as the same happens to these, and each changes once.
+  using Changed = std::map<std::shared_ptr<const PresumedLearner>, std::shared_ptr<const PresumedLearner>, std::less<>>;
+
+  void begin_component(Changed* changed = nullptr);
   /// The time since the period before, and what is shown: as Learner::let_time_pass() and see(), before watch().
-  void let_time_pass(double minutes, std::size_t period);
-  void see(const Atlas& atlas, std::span<const StartIndex> demonstrations);
-  void watch(std::span<const HalfSpace> half_spaces, std::size_t period);
+  void let_time_pass(double minutes, std::size_t period, Changed* changed = nullptr);
+  void see(const Atlas& atlas, std::span<const StartIndex> demonstrations, Changed* changed = nullptr);
+  void watch(std::span<const HalfSpace> half_spaces, std::size_t period, Changed* changed = nullptr);
   /// What the person answered; tests without an answer say nothing.
   void see_answers(const AnswerFit& fit);
-  void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period);
+  void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period,
+                     Changed* changed = nullptr);
 
   [[nodiscard]] std::span<const LearnerHypothesis> hypotheses() const noexcept { return hypotheses_; }
   /// Posterior probabilities, one per hypothesis, if the person learns; sum to 1.
@@ -90,6 +97,12 @@ class LearnerBank {
   /// Expected mass of the weights that satisfy the half-spaces, under the same mixture.
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const;
 
+  /// The probability that `share_right` of what the person believes is at least this much, under the same mixture; who
+  /// guesses is right too rarely, and what hypotheses take for imitations of demonstrations counts as wrong.
+  /// @param share_right  the expected share of starts, in [0, 1], that people with a belief predict right.
+  [[nodiscard]] double probability_of_at_least(double share,
+                                               const std::function<double(const ParticleBelief&)>& share_right) const;
+
   friend bool operator==(const LearnerBank& a, const LearnerBank& b) {
     return a.hypotheses_ == b.hypotheses_ && a.weights_ == b.weights_ && a.people_ == b.people_ &&
            a.learns_ == b.learns_ && a.others_ == b.others_;
@@ -99,21 +112,17 @@ class LearnerBank {
   struct AbilityBin {
     double low, high, probability;
   };
-  // Copied with the person.
   struct Presumed {
-    std::unique_ptr<PresumedLearner> person;
+    std::shared_ptr<const PresumedLearner> person;
     PointCells cells{};
-    explicit Presumed(std::unique_ptr<PresumedLearner> learner) : person{std::move(learner)} {}
-    Presumed(const Presumed& other) : person{other.person->clone()}, cells{other.cells} {}
-    Presumed& operator=(const Presumed& other) { return *this = Presumed{other}; }
-    Presumed(Presumed&&) = default;
-    Presumed& operator=(Presumed&&) = default;
-    ~Presumed() = default;
     friend bool operator==(const Presumed& a, const Presumed& b) {
       return a.person->ability() == b.person->ability() && a.person->belief() == b.person->belief();
     }
   };
   [[nodiscard]] std::vector<AbilityBin> ability_bins() const;
+  // @param usual  those of the usual kind, too.
+  template <typename Change>
+  void change_all(Changed* changed, Change change, bool usual = true);
 
   std::vector<LearnerHypothesis> hypotheses_;
   std::vector<double> weights_;

@@ -58,8 +58,8 @@ struct TeachingOptions {
   std::size_t max_periods = 50;                       ///< >= 1
   std::size_t consecutive_correct = 1;    ///< "all-right": periods in a row that everybody must answer all right, >= 1
   std::size_t periods_per_component = 3;  ///< "fixed": >= 1
-  double probability = 0.9;               ///< "posterior": in (0, 1)
-  double share_right = 0.9;               ///< "exam": in (0, 1)
+  double probability = 0.9;               ///< "posterior" and "exam": in (0, 1)
+  double share_right = 0.95;              ///< "exam": in (0, 1)
   std::size_t min_periods = 1;            ///< "posterior" and "exam": periods of a component at least, >= 1
   /// Which members are done with a component before the team is; nothing: nobody [jayaraman2024]. They have no part in
   /// its remaining periods and return with the next component. Once nobody is left, it counts as learned, whatever
@@ -80,8 +80,9 @@ struct TeachingOptions {
   HypothesesAbout hypotheses_about = HypothesesAbout::kAbility;
   /// The hypotheses of HypothesesAbout::kKinds, with which the bank is always kept.
   std::vector<LearnerHypothesis> kinds{};
-  Pace pace{};                ///< for people who forget with time, and for all minutes that are assumed
-  bool keep_bank = false;     ///< the bank is kept even if nobody reads it
+  Pace pace{};              ///< for people who forget with time, and for all minutes that are assumed
+  bool shares_bank = true;  ///< Members to whom the same happens share what the bank has of them; not before kith did.
+  bool keep_bank = false;   ///< the bank is kept even if nobody reads it
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules
 };

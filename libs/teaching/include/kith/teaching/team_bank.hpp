@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,10 +14,13 @@ namespace kith {
 class TeamBank {
  public:
   /// @param persons  one stream per member. @param response_noise  radians, >= 0.
+  /// @param everybody  of what moves the points of the hypotheses' beliefs, the same for all members, so that those to
+  /// whom the same happens share them; nothing: each has points of their own.
   /// @param components  as for LearnerBank.
   TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
            const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons,
-           double response_noise, std::span<const std::vector<HalfSpace>> components = {});
+           const std::optional<RandomStream>& everybody, double response_noise,
+           std::span<const std::vector<HalfSpace>> components = {});
 
   [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
   [[nodiscard]] const LearnerBank& member(std::size_t i) const { return members_[i]; }
@@ -59,6 +63,7 @@ class TeamBank {
   void inform(std::size_t i, std::span<const HalfSpace> half_spaces, const RandomStream& random);
 
   LikelihoodForm likelihood_;
+  std::optional<RandomStream> everybody_;
   double response_noise_;
   std::vector<LearnerBank> members_;
   std::vector<ParticleBelief> informed_;
