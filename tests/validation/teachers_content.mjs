@@ -28,6 +28,9 @@ const EVERY_PERIOD = ['record.level="period"', 'record.exam="period"'];
 // With what the teacher can tell after every period, beside the truth.
 const ESTIMATES = ['record.level="period"', 'record.estimates=true'];
 const POSTERIOR = (probability) => ['stop.mastery="posterior"', `stop.probability=${probability}`];
+const BY_EXAM = 'stop.mastery="exam"';
+const ENOUGH = { 'item-delivery': 'item-delivery', 'colored-tiles': 'colored-tiles', 'frozen lake': 'domains/gallery/frozen_lake.toml' };
+const CERTAIN = [0.5, 0.7, 0.9, 0.95];
 const MANY = 'stop.periods_per_component=12';
 // What is released, {label: settings}.
 const SESSIONS = { together: [], 'together, `release = "posterior"`': ['stop.release="posterior"'] };
@@ -55,7 +58,12 @@ export const COMMANDS = {
     ),
   ),
   forecasts: study(TEACHERS, 'replicates=20', only('joint', 'plan'), 'design.compositions=["NNN","NPP"]', PAPER_STOP, 'record.level="period"', 'record.forecast=60'),
-  'stop by the exam, navigation': study(ROBOTS, 'replicates=10', only('joint', 'plan'), 'stop.mastery="exam"'),
+  'stop by the exam, navigation': study(ROBOTS, 'replicates=10', only('joint', 'plan'), BY_EXAM),
+  ...Object.fromEntries(
+    Object.entries(ENOUGH).flatMap(([name, file]) =>
+      CERTAIN.map((p) => [`enough ${p}, ${name}`, study(TEACHERS, FEW, only('plan'), `domain="${file}"`, NNP, BY_EXAM, `stop.probability=${p}`, 'stop.max_periods=60')]),
+    ),
+  ),
   'capacity 2, joint': study(TEACHERS, FEW, only('joint'), NNP, ...EVERY_PERIOD, ...TAKE_IN_TWO),
   'capacity 2': study(TEACHERS, FEW, only('plan'), NNP, MANY, ...EVERY_PERIOD, ...TAKE_IN_TWO),
   'capacity 2, planned for': study(TEACHERS, FEW, only('plan'), NNP, MANY, ...EVERY_PERIOD, ...TAKE_IN_TWO, 'strategy.plan.capacity=2'),
@@ -145,6 +153,22 @@ export function makeContent(runs) {
     }),
   };
 
+  // Of the teams that stopped because all were estimated to know enough, the share of which that is true.
+  const enough = (name, p) => {
+    const stopped = teamsOf(`enough ${p}, ${name}`, 'plan').filter((team) => team.status === 'complete');
+    return { items: mean(stopped.map(MEASURES.items[0])), share: share(stopped.filter((team) => team.exam_worst_share_right >= 0.95).length, stopped.length) };
+  };
+  tables.enough = () => ({
+    columns: ['`probability`', ...Object.keys(ENOUGH).flatMap((name) => [name, 'items'])],
+    rows: CERTAIN.map((p) => [
+      String(p),
+      ...Object.keys(ENOUGH).flatMap((name) => {
+        const { items, share: know } = enough(name, p);
+        return [figure(know, 2), fixed(items, 1)];
+      }),
+    ]),
+  });
+
   const best = (run, measure, pick) => pick(...PAPER.map((strategy) => of(run, strategy, measure).value));
   const value = (...one) => of(...one).value;
   const claims = {
@@ -166,6 +190,7 @@ export function makeContent(runs) {
         const one = mastery(`posterior ${p}`);
         return Math.abs(one.predicted.value - one.actual.value) <= 0.05 && one.stalled.value <= 0.01;
       }),
+    'enough-is-enough': () => Object.keys(ENOUGH).every((name) => CERTAIN.every((p) => enough(name, p).share.value >= p)),
     'releasing-costs-knowledge': () =>
       Object.keys(CREWS).every((crew) => {
         const [all, released] = [`${crew} together`, `${crew} together, release = "posterior"`];

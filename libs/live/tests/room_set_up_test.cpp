@@ -82,6 +82,10 @@ TEST(Room, RefusesASetUpThatCannotBeTaught) {
               HasSubstr("open the folder with the version that began it"));
   EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NN", .lessons = 99}),
               HasSubstr("newer version"));
+  const auto by_exam = live_study("[stop]\nmastery = \"exam\"\n");
+  TeachingCache of_exam{by_exam->atlas};
+  EXPECT_THROW((Room{by_exam, {.id = "r", .strategy = "common", .composition = "NN", .lessons = 2}, of_exam}), Error);
+  EXPECT_NO_THROW((Room{by_exam, {.id = "r", .strategy = "common", .composition = "NN"}, of_exam}));
   const RoomSetup setup{.id = "r",
                         .code = "c",
                         .strategy = "common",

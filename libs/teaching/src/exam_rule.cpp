@@ -1,10 +1,12 @@
-// Enough when every member is expected to predict the robot right from most of the component's starts.
+// Enough when it is certain enough that every member predicts the robot right from most of the component's starts.
 
 #include <algorithm>
+#include <vector>
 
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/stop_rule.hpp"
 #include "kith/teaching/teaching_options.hpp"
+#include "kith/teaching/team_bank.hpp"
 
 namespace kith {
 namespace {
@@ -16,18 +18,38 @@ class ExamRule : public StopRule {
   }
 
   [[nodiscard]] StopVerdict judge_team(const ClosedTests& closed) const override {
-    const auto& sample = *starts_[closed.lesson.component];
-    double least = 1.0;
-    for (std::size_t i = 0; i < closed.counted.size(); ++i) {
-      if (closed.counted[i]) least = std::min(least, sample.share_right(closed.expected->member(i)));
-    }
-    const auto& options = closed.view.options;
-    return {closed.periods_of_component() >= options.min_periods && least >= options.share_right, least};
+    return judge(closed, closed.counted);
+  }
+  [[nodiscard]] bool is_done(const ClosedTests& closed, std::size_t member) const override {
+    std::vector<bool> alone(closed.counted.size(), false);
+    alone[member] = true;
+    return judge(closed, alone).is_enough;
   }
 
  private:
+  [[nodiscard]] StopVerdict judge(const ClosedTests& closed, const std::vector<bool>& members) const {
+    const auto& sample = *starts_[closed.lesson.component];
+    const auto& options = closed.view.options;
+    const auto share_right = [&](const ParticleBelief& belief) { return sample.share_right(belief); };
+    std::vector<double> certain;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (!members[i]) continue;
+      certain.push_back(closed.bank->member(i).probability_of_at_least(options.share_right, share_right));
+    }
+    std::sort(certain.begin(), certain.end());  // so that seats do not matter
+    double all = 1.0;
+    for (const double one : certain) all *= one;
+    return {closed.periods_of_component() >= options.min_periods && all >= options.probability, all};
+  }
+
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
 };
+
+// Which share, and how certain that has to be.
+std::string predicts(const TeachingOptions& options) {
+  return "to predict the robot from at least " + to_string(options.share_right) +
+         " of the component's start states with a probability of at least " + to_string(options.probability);
+}
 
 }  // namespace
 
@@ -36,17 +58,16 @@ namespace detail {
 StopRuleKind exam_kind() {
   return {.name = "exam",
           .description =
-              "when every member is expected to predict the robot right from at least share_right of the "
-              "component's starts",
+              "when all members predict the robot right from at least share_right of the component's starts, with at "
+              "least probability",
           .make = [](const ParameterValues&, TeachingCache& cache) -> std::unique_ptr<const StopRule> {
             return std::make_unique<ExamRule>(cache);
           },
-          .until =
-              [](const TeachingOptions& options, const ParameterValues&) {
-                return "until every member was expected to predict the robot from at least " +
-                       to_string(options.share_right) + " of the component's start states";
-              },
-          .needs = [](const Atlas&) { return StopNeeds{.beliefs = true}; }};
+          .until = [](const TeachingOptions& options,
+                      const ParameterValues&) { return "until all members were estimated " + predicts(options); },
+          .released = [](const TeachingOptions& options,
+                         const ParameterValues&) { return "were estimated " + predicts(options); },
+          .needs = [](const Atlas&) { return StopNeeds{.bank = true}; }};
 }
 
 }  // namespace detail

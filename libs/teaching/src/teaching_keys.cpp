@@ -74,11 +74,13 @@ std::span<const OptionKey<TeachingOptions>> stop_keys() {
       option_key<T, &T::periods_per_component>("periods_per_component",
                                                "periods of every component, with mastery 'fixed'", {1, kManyPeriods}),
       option_key<T, &T::probability>(
-          "probability", "with mastery 'posterior', the probability that all members answer a random test correctly",
+          "probability",
+          "how probable it has to be, with mastery 'posterior', that all members answer a random test correctly, with "
+          "'exam', that all predict share_right of the starts",
           {0, 1, true, true}),
       option_key<T, &T::share_right>(
           "share_right",
-          "with mastery 'exam', the share of a component's starts that everybody is expected to predict correctly",
+          "with mastery 'exam', the share of a component's starts that everybody has to predict correctly",
           {0, 1, true, true}, [](const T& options) { return options.mastery.kind.name == "exam"; }),
       option_key<T, &T::min_periods>(
           "min_periods", "periods of a component at least, with mastery 'posterior' or 'exam'", {1, kManyPeriods}),
