@@ -218,7 +218,7 @@ class Inspection {
     spec.compositions = {"NNP"};
     constexpr std::size_t kTeams = 300;
     out_ += fmt::format("  {} of two novices and a proficient learner, strategy common\n",
-                        work_text(*atlas_, spec, 0, kTeams));
+                        work_text(try_cells(*atlas_, spec, 0), kTeams));
     out_ += "  kith fit and power say how long they take before they begin\n";
   }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <system_error>
+#include <utility>
 
 #include "input.hpp"
 #include "interrupt.hpp"
@@ -27,17 +29,37 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / kHour);
 }
 
-std::string work_text(const Atlas& atlas, const StudySpec& spec, std::size_t threads, std::size_t teams) {
+Trial try_cells(const Atlas& atlas, const StudySpec& spec, std::size_t threads) {
   Study probe{{spec}};
   probe.variants.front().replicates = 1;
   probe.variants.front().record = RecordLevel::kTeam;
   const auto addresses = team_addresses(probe);
   const auto begin = std::chrono::steady_clock::now();
   const auto stopped = [](std::size_t, std::size_t) { return stop_signal() == 0; };
-  (void)run_teams(atlas, probe, addresses, {.threads = threads, .on_progress = stopped});
+  auto tried = run_teams(atlas, probe, addresses, {.threads = threads, .on_progress = stopped});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  const double seconds = took.count() * static_cast<double>(teams) / static_cast<double>(addresses.size());
+  return {took.count() / static_cast<double>(addresses.size()), std::move(tried.teams)};
+}
+
+std::string work_text(const Trial& trial, std::size_t teams) {
+  const double seconds = trial.seconds_per_team * static_cast<double>(teams);
   return fmt::format("simulating {} teams takes {}{}", teams, seconds < 1.0 ? "" : "about ", duration_text(seconds));
+}
+
+std::string items_text(const Trial& trial, const StudySpec& spec) {
+  std::string text;
+  for (const auto& strategy : spec.strategies) {
+    std::size_t fewest = SIZE_MAX, most = 0;
+    for (const auto& team : trial.teams) {
+      if (team.address.strategy != strategy.name) continue;
+      fewest = std::min(fewest, team.demonstrations + team.tests);
+      most = std::max(most, team.demonstrations + team.tests);
+    }
+    if (most == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", strategy.name, fewest);
+    if (most > fewest) text += fmt::format(" to {}", most);
+  }
+  return "demonstrations and tests of a session, in a team of every composition: " + text;
 }
 
 std::vector<PublishedFinding> findings_of(const std::string& file, const StudySpec& spec) {

@@ -173,7 +173,7 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   check_pool(options, pool_spec.replicates, power.teams);
   const Study pool_study{{pool_spec}};
   require_pool_memory(pool_study, options.threads, num_teams(pool_study));  // before the time is measured
-  if (!console.quiet()) console.info(work_text(atlas, pool_spec, options.threads, num_teams(pool_study)));
+  if (!console.quiet()) console.info(work_text(try_cells(atlas, pool_spec, options.threads), num_teams(pool_study)));
   const auto pools =
       simulate_pools(atlas, pool_study, {.threads = options.threads, .on_progress = progress.until_stopped()});
   progress.finish();
@@ -234,7 +234,7 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
   replication.on_progress = progress.until_stopped();
   if (!console.quiet()) {
     const auto teams = spec.replicates * spec.strategies.size() * spec.compositions.size() * replication.studies;
-    console.info(work_text(atlas, spec, options.threads, teams));
+    console.info(work_text(try_cells(atlas, spec, options.threads), teams));
   }
   const auto result = replicate_findings(atlas, spec, findings, replication);
   progress.finish();

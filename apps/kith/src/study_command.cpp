@@ -74,7 +74,10 @@ void say_how_long(const Study& study, const Domain& domain, std::size_t threads,
   require_study_memory(study, threads);
   require_teaching_memory(domain, threads);
   const Atlas atlas = planned(domain, console);
-  console.info(work_text(atlas, study.variants.front(), threads, teams));
+  const auto& spec = study.variants.front();
+  const auto trial = try_cells(atlas, spec, threads);
+  console.info(work_text(trial, teams));
+  console.info(items_text(trial, spec));
 }
 
 // Tables and journal, measured with several studies of item delivery; others differ by a factor of two.

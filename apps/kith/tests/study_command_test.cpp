@@ -122,6 +122,7 @@ TEST(StudyCommand, RunsNothingWhenDry) {
   EXPECT_EQ(ran.code, 0);
   EXPECT_THAT(ran.out, HasSubstr("300 teams"));
   EXPECT_THAT(ran.err, HasSubstr("simulating 300 teams takes "));
+  EXPECT_THAT(ran.err, HasSubstr("tests of a session, in a team of every composition: baseline "));
   EXPECT_EQ(run_kith({"study", "paper", "--dry-run", "-q"}).err, "");
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
