@@ -3,12 +3,13 @@
 
 usage: anytime.py KITH OUT.csv [--domains FILE...] [--random N] [--teams 30] [--kinds KIND...] [--strategies NAME...]
        anytime.py --summary OUT.csv...
+       anytime.py --page OUT.csv... > results.md
 
 Teams of three are taught and sit an exam over the whole domain after every period. The row of a strategy at k items is
 the mean over teams of the exam after the last period within k items, carried on when a team has finished. The
 strategies of the paper stop by their own rule; all others go on until 40 items. --random N takes N grids of two or three
 features, by chance. --summary says where "plan" is first: at most 1.1 times the regret of the best other strategy, or
-not more beyond two standard errors; and the median of its regret as a share of theirs.
+not more beyond two standard errors; and the median of its regret as a share of theirs. --page writes that for people.
 
 Columns: domain, kind, strategy, k, regret, regret_se, share, share_se, teams.
 """
@@ -34,7 +35,8 @@ STRATEGIES += [(f"{name}, whole", name, WHOLE) for name in ("joint", "common")]
 STRATEGIES += [("joint, review", "joint", ("teacher.review=true",))]
 STRATEGIES += [(name, name, WHOLE) for name in ("set-cover", "random", "highlights", "plan")]
 BUILT_IN = ("item-delivery", "colored-tiles", "skateboard", "cookie-crumb", "two-goals", "rescue-floor",
-            "icy-crossing", "lee2021-taxi", "lee2021-two-goals", "lee2021-skateboard", "navigation")
+            "icy-crossing", "lee2021-taxi", "lee2021-two-goals", "lee2021-skateboard", "navigation", "warehouse")
+GALLERY = ("cliff_walking", "four_rooms", "frozen_lake", "frozen_lake_8x8", "taxi")
 STUDY = """schema = "kith.study/1"
 id = "anytime"
 domain = "{domain}"
@@ -126,24 +128,54 @@ def random_domains(kith, n, folder):
     return files
 
 
-def summarise(files):
+def read_cells(files):
+    """{(domain, kind, k): {strategy: (regret, its standard error)}}"""
     cells = collections.defaultdict(dict)
     for file in files:
         with open(file, newline="", encoding="utf-8") as table:
             for row in csv.DictReader(table):
                 cells[row["domain"], row["kind"], int(row["k"])][row["strategy"]] = (
                     float(row["regret"]), float(row["regret_se"]))
+    return dict(sorted(cells.items()))
+
+
+def compare(regrets):
+    """Of a cell: regret and error of plan, the best other strategy with its own, and whether plan loses."""
+    plan, error = regrets["plan"]
+    name, (best, best_error) = min((one for one in regrets.items() if one[0] != "plan"), key=lambda one: one[1])
+    lost = plan > 1.1 * best and plan - best > 2 * math.hypot(error, best_error)
+    return plan, error, name, best, best_error, lost
+
+
+def summary(cells):
+    """Sentences: in how many cells plan is first, what it loses, its share of the best other regret."""
     lost, ratios = [], collections.defaultdict(list)
-    for cell, regrets in sorted(cells.items()):
-        plan, error = regrets.pop("plan")
-        name, (best, best_error) = min(regrets.items(), key=lambda one: one[1])
+    for cell, regrets in cells.items():
+        plan, error, name, best, best_error, is_lost = compare(regrets)
         if best > 1e-9:
             ratios[cell[2]].append(plan / best)
-        if plan > 1.1 * best and plan - best > 2 * math.hypot(error, best_error):
+        if is_lost:
             lost.append(f"{', '.join(map(str, cell))}: {plan:.4g} ({error:.2g}), {name} {best:.4g} ({best_error:.2g})")
-    print(f"first in {len(cells) - len(lost)} of {len(cells)} cells; lost:", *lost, sep="\n  ")
-    for k, values in sorted(ratios.items()):
-        print(f"{k} items: median of {len(values)} ratios to the best other {statistics.median(values):.3g}")
+    medians = [f"{k} items: median of {len(values)} ratios to the best other {statistics.median(values):.2g}"
+               for k, values in sorted(ratios.items())]
+    return f"first in {len(cells) - len(lost)} of {len(cells)} cells", lost, medians
+
+
+def page(cells):
+    first, lost, medians = summary(cells)
+    print("# Regret after every number of items\n\nMade by `anytime.py --page`. Regret of `plan` and of the best other "
+          "strategy at that number of items, which is\nnamed; in bold where `plan` loses: more than 1.1 times as much, "
+          f"and beyond two standard errors.\n\n`plan` is {first}.\n")
+    print(*(f"* {median}" for median in medians), sep="\n")
+    names = list(dict.fromkeys(cell[:2] for cell in cells))
+    print("\n| domain | people |", *(f" {k} |" for k in ITEMS), "\n|---|---|", "---|" * len(ITEMS), sep="")
+    for domain, kind in names:
+        row = []
+        for k in ITEMS:
+            plan, _, name, best, _, is_lost = compare(cells[domain, kind, k])
+            text = f"{plan:.2g}, {name} {best:.2g}"
+            row.append(f" **{text}** |" if is_lost else f" {text} |")
+        print(f"| {domain} | {kind} |", *row, sep="")
 
 
 def at(team, k):
@@ -155,17 +187,24 @@ def main():
     parser.add_argument("kith", nargs="?")
     parser.add_argument("out", nargs="?")
     parser.add_argument("--summary", nargs="+")
+    parser.add_argument("--page", nargs="+")
     parser.add_argument("--random", type=int, default=0)
     parser.add_argument("--domains", nargs="+")
     parser.add_argument("--teams", type=int, default=30)
     parser.add_argument("--kinds", nargs="+", default=["bayesian"])
     parser.add_argument("--strategies", nargs="+")
     arguments = parser.parse_args()
+    if arguments.page:
+        page(read_cells(arguments.page))
+        return
     if arguments.summary:
-        summarise(arguments.summary)
+        first, lost, medians = summary(read_cells(arguments.summary))
+        print(f"{first}; lost:", *lost, sep="\n  ")
+        print(*medians, sep="\n")
         return
     with open(arguments.out, "w", newline="", encoding="utf-8") as out, tempfile.TemporaryDirectory() as folder:
-        domains = arguments.domains or ([] if arguments.random else BUILT_IN)
+        domains = arguments.domains or ([] if arguments.random else
+                                        [*BUILT_IN, *(ROOT / f"domains/gallery/{name}.toml" for name in GALLERY)])
         domains = [*domains, *random_domains(arguments.kith, arguments.random, folder)]
         table = csv.writer(out)
         table.writerow(["domain", "kind", "strategy", "k", "regret", "regret_se", "share", "share_se", "teams"])
