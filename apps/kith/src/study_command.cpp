@@ -103,6 +103,11 @@ int dry_run(const Study& study, std::size_t teams, Console& console) {
       counted(teams, "team"), spec.domain, spec.seed, counted(study.variants.size(), "variant"),
       spec.strategies.size() == 1 ? "1 strategy" : fmt::format("{} strategies", spec.strategies.size()),
       counted(spec.compositions.size(), "composition"), counted(spec.replicates, "replicate"), disk_text(study)));
+  for (const auto& type : spec.learner_types) {
+    if (!type.knowing) continue;
+    console.print(fmt::format("learners {} know the robot before an update, {}; the teacher {}\n", type.letter,
+                              type.knowing->name, spec.teaching.known ? "knows that" : "does not know that"));
+  }
   return 0;
 }
 

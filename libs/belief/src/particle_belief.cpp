@@ -49,6 +49,7 @@ ParticleBelief::ParticleBelief(const PriorCover& cover, const FilterOptions& opt
   if (cover.size() != options.particles) {
     throw std::invalid_argument("ParticleBelief: the cover must have as many points as the belief has particles");
   }
+  if (!cover.weights().empty()) weigh_by(cover.weights());
 }
 
 void ParticleBelief::check(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) const {

@@ -196,6 +196,10 @@ class Paragraph {
     }
     for (const auto& type : spec_.learner_types) {
       if (type.prior) say("Learners of the type '" + type.label + "' started from their own prior.");
+      if (!type.knowing || !is_used(type)) continue;
+      say("Learners of the type '" + name_of_type(type) + "' knew the robot before an update, " + type.knowing->name +
+          ": their beliefs began in its behaviour equivalence class, with a share of " + shortest(kBeyondKnown) +
+          " spread over the prior.");
     }
   }
 

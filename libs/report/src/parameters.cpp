@@ -31,6 +31,8 @@ constexpr std::array kMeanings{
     Meaning{"learner.*.label", "what people of this type are called"},
     Meaning{"learner.*.kind", "learner model: how people of this type learn and answer"},
     Meaning{"learner.*.prior", "half-spaces that people of this type know from the start"},
+    Meaning{"learner.*.knowing.robot", "the robot before an update, which people of this type know"},
+    Meaning{"learner.*.knowing.halfspaces", "half-spaces that hold for its weights"},
 };
 
 // Whether the key is one that the pattern stands for.

@@ -214,11 +214,11 @@ void note_estimate(const Atlas& atlas, std::vector<std::string>& notes) {
 std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
   std::vector<double> masses;
   for (const auto& type : run.types()) {
-    auto prior = type.prior ? Cone{atlas.domain().num_features()} : atlas.prior_cone();
-    if (type.prior && !prior.clip(*type.prior)) prior = atlas.prior_cone();
     std::optional<PriorCover> cover;
-    const LearnerStart start{
-        .cover = [&](std::size_t num_points) -> const PriorCover& { return cover.emplace(prior, num_points); }};
+    const LearnerStart start{.cover = [&](std::size_t num_points) -> const PriorCover& {
+      return cover.emplace(prior_of(type, atlas.prior_cone()), num_points, std::span<const std::size_t>{},
+                           known_to(type, atlas.prior_cone()));
+    }};
     const RandomStream random{run.spec().seed};
     const auto person = type.model->make(type.parameters, type.model->draw(type.parameters, random), start, random);
     masses.push_back(person->mass_in(atlas.policy_bec_half_spaces()));

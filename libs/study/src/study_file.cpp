@@ -4,10 +4,12 @@
 #include <iterator>
 #include <system_error>
 
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/toml/document.hpp"
 #include "kith/toml/file.hpp"
+#include "read_prior.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {
@@ -29,6 +31,7 @@ class StudyParser {
 
   StudyReading parse() {
     read_domain_of_study();
+    read_older_robots();
     const auto base = read_study_spec(document_, domain(), options_.kinds, report_);
     const auto factors = read_factors();
     if (!report_.has_errors()) check_size(base, factors);
@@ -45,35 +48,75 @@ class StudyParser {
   void read_domain_of_study() {
     const auto* value = document_.root.find("domain");
     if (value == nullptr || value->string() == nullptr) return;  // reported by read_study_spec
-    const auto& name = *value->string();
+    auto text = text_of_domain(*value);
+    if (!text) return;
+    auto parsed = parse_domain(text->text, text->name, {}, text->files);
+    reading_.domain = std::move(parsed.domain);
+    reading_.domain_text = std::move(text->text);
+    reading_.domain_files = std::move(parsed.files);
+    reading_.diagnostics = std::move(parsed.diagnostics);
+  }
+
+  struct DomainText {
+    std::string text, name;
+    DomainFiles files;
+  };
+  // Of the domain that is named; nothing after reporting that there is none.
+  [[nodiscard]] std::optional<DomainText> text_of_domain(const TomlValue& value) {
+    const auto& name = *value.string();
     const auto& known = built_in_domains();
     const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
-    if (built_in != known.end()) {
-      take_domain(std::string{built_in->text}, name, {.known = built_in->files});
-      return;
-    }
-    const auto path = value->place().source == 0 ? options_.folder / name : std::filesystem::path{name};
+    if (built_in != known.end()) return DomainText{std::string{built_in->text}, name, {.known = built_in->files}};
+    const auto path = value.place().source == 0 ? options_.folder / name : std::filesystem::path{name};
     // What is wrong with a domain is shown with its lines, and whoever runs a study need not have written it: only
     // files that are meant to be read so are opened, so that none can be made to show others.
     std::error_code failure;
     const bool may_be_domain = path.extension() == ".toml" && std::filesystem::is_regular_file(path, failure);
     if (auto text = may_be_domain ? read_toml_text(path) : std::nullopt) {
-      take_domain(*std::move(text), path.string(), {.folder = path.parent_path()});
-      return;
+      return DomainText{*std::move(text), path.string(), {.folder = path.parent_path()}};
     }
     std::vector<std::string> names;
     for (const auto& kind : known) names.emplace_back(kind.name);
-    report_.error("E0116", value->place(),
+    report_.error("E0116", value.place(),
                   "there is no domain '" + name + "': neither built in nor a file that ends in .toml and can be read",
                   suggestion(name, names));
+    return std::nullopt;
   }
 
-  void take_domain(std::string text, const std::string& name, const DomainFiles& files) {
-    auto parsed = parse_domain(text, name, {}, files);
-    reading_.domain = std::move(parsed.domain);
-    reading_.domain_text = std::move(text);
-    reading_.domain_files = std::move(parsed.files);
-    reading_.diagnostics = std::move(parsed.diagnostics);
+  // Where a learner type names the robot before an update, what people know of it stands in place of the name, so that
+  // a study needs no other file once it was read.
+  void read_older_robots() {
+    const auto* learners = document_.root.find("learner");
+    if (learners == nullptr || learners->table() == nullptr || !reading_.domain) return;
+    for (const auto& type : learners->table()->entries()) {
+      const auto* value = type.value.table() != nullptr ? type.value.table()->find("knowing") : nullptr;
+      if (value == nullptr || value->string() == nullptr) continue;
+      if (const auto older = older_robot_called(*value)) {
+        const TomlValue known{knowing_table(*older, *reading_.domain), value->place()};
+        set(document_.root, {"learner", type.key, "knowing"}, known);
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<OlderRobot> older_robot_called(const TomlValue& value) {
+    const auto text = text_of_domain(value);
+    if (!text) return std::nullopt;
+    auto parsed = parse_domain(text->text, text->name, {}, text->files);
+    if (!parsed.domain) {
+      reading_.diagnostics.insert(reading_.diagnostics.end(), parsed.diagnostics.begin(), parsed.diagnostics.end());
+      return std::nullopt;
+    }
+    auto why = why_incomparable(*parsed.domain, *reading_.domain);
+    try {
+      if (why.empty()) {
+        require_teaching_memory(*parsed.domain);
+        return older_robot(Atlas{*std::move(parsed.domain)});
+      }
+    } catch (const Error& error) {
+      why = "what people know of '" + *value.string() + "' cannot be told: " + error.what();
+    }
+    report_.error("E0425", value.place(), why, "name a domain file with the same features in the same order");
+    return std::nullopt;
   }
 
   // --- varied keys -----------------------------------------------------------
@@ -117,8 +160,8 @@ class StudyParser {
   // What makes up the design itself, or only names things, does not vary within it.
   [[nodiscard]] bool may_vary(const TomlEntry& entry) {
     const auto begins = [&](std::string_view start) { return entry.key.rfind(start, 0) == 0; };
-    const bool is_label = entry.key.size() > 6 && entry.key.substr(entry.key.size() - 6) == ".label";
-    if ((begins("learner.") || begins("teacher.") || begins("stop.")) && !is_label) return true;
+    const bool is_fixed = entry.key.ends_with(".label") || (begins("learner.") && entry.key.ends_with(".knowing"));
+    if ((begins("learner.") || begins("teacher.") || begins("stop.")) && !is_fixed) return true;
     report_.error("E0412", entry.place, "'" + entry.key + "' cannot vary within a study",
                   "keys of [learner.X], [teacher] and [stop] can, written with dots and in quotes");
     return false;

@@ -57,6 +57,10 @@ std::vector<Parameter> declared_in(std::string_view table) {
     result.push_back({.name = "kinds",
                       .default_value = std::string{},
                       .description = "kinds of learners that the hypotheses 'kinds' are about"});
+    result.push_back({.name = "knowing",
+                      .default_value = std::string{"learners"},
+                      .description = "which robot before an update the teacher takes people to know: the one that all "
+                                     "learners know, or none ('nothing')"});
   } else if (table == "stop") {
     std::vector<std::string_view> all, releasing{"none"};
     for (const auto& kind : stop_rule_kinds()) {

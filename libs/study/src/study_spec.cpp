@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "kith/core/assert.hpp"
+
 namespace kith {
 
 void take_domain(StudySpec& spec, const Domain& domain) {
@@ -26,6 +28,28 @@ const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name) 
     throw std::invalid_argument{"strategy_of: the study has no strategy '" + std::string{name} + "'"};
   }
   return *found;
+}
+
+Cone prior_of(const LearnerType& type, const Cone& of_domain) {
+  if (!type.prior) return of_domain;
+  Cone prior{of_domain.dimension()};
+  const bool has_room = prior.clip(*type.prior);
+  KITH_ASSERT(has_room);  // checked when the study was read
+  return prior;
+}
+
+std::optional<Cone> known_to(const LearnerType& type, const Cone& of_domain) {
+  return type.knowing ? known_within(prior_of(type, of_domain), type.knowing->region) : std::nullopt;
+}
+
+std::optional<OlderRobot> known_to_all(const StudySpec& spec) {
+  const LearnerType* first = nullptr;
+  for (const auto& type : spec.learner_types) {
+    if (!type.mixture.empty()) continue;
+    if (first == nullptr) first = &type;
+    if (type.knowing != first->knowing) return std::nullopt;
+  }
+  return first != nullptr ? first->knowing : std::nullopt;
 }
 
 const LearnerType& learner_type(const StudySpec& spec, char letter) {

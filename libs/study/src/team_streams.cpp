@@ -1,6 +1,5 @@
 #include "kith/study/team_streams.hpp"
 
-#include "kith/core/assert.hpp"
 #include "kith/random/distributions.hpp"
 #include "kith/teaching/known_components.hpp"
 
@@ -42,14 +41,10 @@ std::vector<double> draw_traits(const LearnerType& type, const RandomStream& per
 std::unique_ptr<Learner> make_learner(const StudySpec& spec, const LearnerType& type, const std::vector<double>& traits,
                                       const RandomStream& person, TeachingCache& cache) {
   const auto& atlas = cache.atlas();
-  auto prior = atlas.prior_cone();
-  if (type.prior) {
-    prior = Cone{atlas.domain().num_features()};
-    const bool has_room = prior.clip(*type.prior);
-    KITH_ASSERT(has_room);  // checked when the study was read
-  }
+  const auto prior = prior_of(type, atlas.prior_cone());
+  const auto known = known_to(type, atlas.prior_cone());
   const LearnerStart start{
-      .cover = [&](std::size_t num_points) -> const PriorCover& { return cache.cover(prior, num_points); },
+      .cover = [&](std::size_t num_points) -> const PriorCover& { return cache.cover(prior, num_points, known); },
       .likelihood = spec.teaching.likelihood,
       .components = [&] { return constraints_of_components(atlas); },
       .records_support = spec.beliefs};

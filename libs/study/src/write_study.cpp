@@ -6,6 +6,7 @@
 #include "kith/toml/document.hpp"
 #include "parameters_toml.hpp"
 #include "read_group.hpp"
+#include "read_prior.hpp"
 #include "read_study_spec.hpp"
 #include "study_keys.hpp"
 
@@ -92,6 +93,7 @@ TomlTable learner(const LearnerType& type, const Domain& domain) {
   auto result = std::move(table).take();
   write_parameters(type.parameters, result);
   if (type.prior) result.append({"prior", {}, TomlValue{prior(*type.prior, domain)}});
+  if (type.knowing) result.append({"knowing", {}, TomlValue{knowing_table(*type.knowing, domain)}});
   return result;
 }
 
@@ -133,6 +135,7 @@ TomlValue teacher(const StudySpec& spec) {
   write_options(more.first(1), spec, table);
   table.append({"beliefs", {}, TomlValue{strings(beliefs)}});
   write_options(more.subspan(1), spec, table);
+  if (!spec.assumes_knowing) table.append({"knowing", {}, TomlValue{std::string{"nothing"}}});
   if (spec.teaching.hypotheses_about == HypothesesAbout::kKinds) {
     std::vector<std::string> kinds;
     for (const auto& one : kinds_of(spec.teaching.kinds)) kinds.push_back(one.kind);
@@ -160,6 +163,13 @@ TomlValue written(std::span<const OptionKey<StudySpec>> keys, const StudySpec& s
 }
 
 }  // namespace
+
+TomlTable knowing_table(const OlderRobot& robot, const Domain& domain) {
+  TableWriter knowing;
+  knowing.add("robot", robot.name);
+  knowing.add("halfspaces", TomlValue{prior(robot.region, domain)});
+  return std::move(knowing).take();
+}
 
 std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   const auto& spec = study.variants.at(0);

@@ -22,7 +22,10 @@ std::size_t tests_needed(const ClosedTests& closed) {
   if (!closed.view.has_short_lessons) return 0;
   const auto& atlas = closed.view.atlas;
   const auto& component = atlas.knowledge_components()[closed.lesson.component];
-  return std::min(component.constraints.without(atlas.prior()).count(), kEnoughTests);
+  auto facets = component.constraints.without(atlas.prior()).members();
+  if (const auto& known = closed.view.options.known)
+    std::erase_if(facets, [&](ConstraintIndex c) { return known->implies(atlas.constraints()[c]); });
+  return std::min(facets.size(), kEnoughTests);
 }
 
 // Whether so many periods in a row, of which this one is the last, are enough.

@@ -28,11 +28,15 @@ void TeachingCache::trim() {
   known_ = std::make_unique<Known>(*atlas_, max_bytes_, partitions_);
 }
 
-const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points) {
-  const auto known = std::find_if(covers_.begin(), covers_.end(), [&](const PriorCover& cover) {
-    return cover.size() == num_points && cover.prior() == prior;
+const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points, const std::optional<Cone>& known) {
+  const auto place = std::find_if(covers_.begin(), covers_.end(), [&](const PriorCover& cover) {
+    return cover.size() == num_points && cover.prior() == prior && cover.known() == known;
   });
-  return known != covers_.end() ? *known : covers_.emplace_back(prior, num_points, atlas_->feature_order());
+  return place != covers_.end() ? *place : covers_.emplace_back(prior, num_points, atlas_->feature_order(), known);
+}
+
+const PriorCover& TeachingCache::start_of(const TeachingOptions& options) {
+  return cover(atlas_->prior_cone(), options.filter.particles, options.known);
 }
 
 const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {

@@ -11,12 +11,7 @@ std::vector<KindProbability> kinds_after(TeachingCache& cache, const TeachingOpt
                                          std::span<const ObservedPeriod> periods, const RandomStream& random) {
   const auto& atlas = cache.atlas();
   const auto components = constraints_of_components(atlas);
-  LearnerBank bank{cache.cover(atlas.prior_cone(), options.filter.particles),
-                   options.filter,
-                   options.likelihood,
-                   options.kinds,
-                   random,
-                   components};
+  LearnerBank bank{cache.start_of(options), options.filter, options.likelihood, options.kinds, random, components};
   const ObservedPeriod* before = nullptr;
   for (const auto& period : periods) {
     if (before == nullptr || before->component != period.component) bank.begin_component();

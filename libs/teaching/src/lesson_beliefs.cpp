@@ -30,7 +30,8 @@ LessonBeliefs::LessonBeliefs(TeachingCache& cache, Options options, std::span<co
     : options_{std::move(options)}, random_{random} {
   require_hypotheses(options_.hypotheses);
   for (const auto& prior : priors) {
-    starts_.emplace_back(ParticleBelief{cache.cover(prior, options_.filter.particles), options_.filter});
+    const auto known = starts_.empty() ? options_.known : std::nullopt;  // misconceptions are about the robot as it is
+    starts_.emplace_back(ParticleBelief{cache.cover(prior, options_.filter.particles, known), options_.filter});
   }
   chains_.assign(starts_.size(), std::vector<Chain>(options_.hypotheses.size()));
 }

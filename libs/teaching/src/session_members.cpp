@@ -23,8 +23,7 @@ void Session::make_rules(TeachingCache& cache) {
     options.response_noise = 0.0;
     options.members = true;
     options.rules.clear();
-    judged_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options, persons_,
-                    teacher_.split("judged belief"));
+    judged_.emplace(cache.start_of(options_), options, persons_, teacher_.split("judged belief"));
   }
 
   if (options_.hypotheses_about == HypothesesAbout::kKnownComponents)
@@ -33,8 +32,7 @@ void Session::make_rules(TeachingCache& cache) {
   const bool asks_for_kinds = options_.hypotheses_about == HypothesesAbout::kKinds;
   if (asks_for_kinds) options_.hypotheses = options_.kinds;
   if (!asks_for_kinds && !needs.bank && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
-  bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
-                options_.hypotheses, persons_,
+  bank_.emplace(cache.start_of(options_), options_.filter, options_.likelihood, options_.hypotheses, persons_,
                 options_.shares_bank ? std::optional{teacher_.split("bank")} : std::nullopt, options_.response_noise,
                 constraints_of_components(*atlas_));
 }
@@ -48,7 +46,7 @@ bool Session::awaits_newcomer() const {
 
 // Nothing is known about them, whatever was known about those who had their places.
 void Session::admit_newcomers(TeachingCache& cache) {
-  const auto& cover = cache.cover(atlas_->prior_cone(), options_.filter.particles);
+  const auto& cover = cache.start_of(options_);
   for (std::size_t i = 0; i < num_members(); ++i) {
     if (!is_new_[i] || attendance_[i] != Attendance::kReturning) continue;
     belief_.restart(i, cover);

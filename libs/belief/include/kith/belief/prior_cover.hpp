@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,10 @@
 #include "kith/geometry/eigen.hpp"
 
 namespace kith {
+
+/// How much of a belief that begins with what people know lies outside it: they may be wrong about what they know, or
+/// have forgotten it.
+inline constexpr double kBeyondKnown = 0.05;
 
 /// Where particle beliefs over one prior begin: exactly M points of a regular
 /// cover of the prior's part of the unit sphere, with the prior's facets. It
@@ -18,11 +23,16 @@ class PriorCover {
   /// @param prior the hard prior; may be the whole sphere. @param particles M. @param axes the axes in the order that
   /// cover() is to take them; empty: as they are.
   /// @throws std::invalid_argument if particles is 0.
-  PriorCover(Cone prior, std::size_t particles, std::span<const std::size_t> axes = {});
+  /// @param known  a region in the prior that people know: half of the points cover it, with a mass of 1 -
+  /// kBeyondKnown, the others the whole prior.
+  PriorCover(Cone prior, std::size_t particles, std::span<const std::size_t> axes = {}, std::optional<Cone> known = {});
 
   [[nodiscard]] const Cone& prior() const noexcept { return prior_; }
+  [[nodiscard]] const std::optional<Cone>& known() const noexcept { return known_; }
   /// M.
   [[nodiscard]] std::size_t size() const noexcept { return points_.size() / dimension(); }
+  /// Of the points, relative to the largest; empty: all weigh the same. Shape [size()].
+  [[nodiscard]] const std::vector<double>& weights() const noexcept { return weights_; }
   /// d.
   [[nodiscard]] std::size_t dimension() const noexcept { return prior_.dimension(); }
   /// Coordinates of the points, axis by axis, shape [d, size()].
@@ -38,7 +48,9 @@ class PriorCover {
 
  private:
   Cone prior_;
+  std::optional<Cone> known_;
   std::vector<double> points_;
+  std::vector<double> weights_;
   std::vector<Direction> normals_;
 };
 

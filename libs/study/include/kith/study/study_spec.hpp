@@ -11,6 +11,7 @@
 #include "kith/geometry/half_space.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/study/group_options.hpp"
+#include "kith/teaching/older_robot.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -29,6 +30,7 @@ struct LearnerType {
   const LearnerModel* model = &bayesian_model();
   ParameterValues parameters{model->parameters};
   std::optional<std::vector<HalfSpace>> prior{};  ///< What this type starts from; none: the domain's prior.
+  std::optional<OlderRobot> knowing{};            ///< The robot before an update, which people of this type know.
   /// If not empty, everybody is drawn from these types, which are not mixed themselves, with shares that sum to 1; all
   /// the rest but the label means nothing then.
   std::vector<LearnerShare> mixture{};
@@ -98,6 +100,7 @@ struct StudySpec {
   Pairing pairing = Pairing::kReplicate;
   std::vector<LearnerType> learner_types;
   TeachingOptions teaching;
+  bool assumes_knowing = true;                ///< Whether the teacher knows which older robot all learners know.
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
   RecordLevel record = RecordLevel::kPeriod;
   ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
@@ -120,6 +123,13 @@ void take_domain(StudySpec& spec, const Domain& domain);
 
 /// The strategy with this name. @throws std::invalid_argument if there is none.
 [[nodiscard]] const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name);
+
+/// The prior of people of a type: their own, or else that of the domain.
+[[nodiscard]] Cone prior_of(const LearnerType& type, const Cone& of_domain);
+/// What people of a type know of an older robot, within their prior; nothing if they know none.
+[[nodiscard]] std::optional<Cone> known_to(const LearnerType& type, const Cone& of_domain);
+/// The older robot that people of all types know; nothing if there is none.
+[[nodiscard]] std::optional<OlderRobot> known_to_all(const StudySpec& spec);
 
 /// The type with this letter. @throws std::invalid_argument if there is none.
 [[nodiscard]] const LearnerType& learner_type(const StudySpec& spec, char letter);

@@ -71,7 +71,10 @@ class TeachingCache {
   void trim();
 
   /// The cover of `prior` by `num_points` points. The reference stays valid as long as this object.
-  const PriorCover& cover(const Cone& prior, std::size_t num_points);
+  /// @param known  see PriorCover.
+  const PriorCover& cover(const Cone& prior, std::size_t num_points, const std::optional<Cone>& known = {});
+  /// Where beliefs about members begin.
+  const PriorCover& start_of(const TeachingOptions& options);
 
   /// The exam of the domain, made when first asked for. The reference stays valid as long as this object.
   const Exam& exam() { return *shared_exam(); }

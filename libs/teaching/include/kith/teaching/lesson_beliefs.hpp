@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +47,7 @@ class LessonBeliefs {
     FilterOptions filter{};
     LikelihoodForm likelihood = LikelihoodForm::kDiscontinuous;
     std::vector<LearnerHypothesis> hypotheses = grid_of_hypotheses();
+    std::optional<Cone> known{};  ///< TeachingOptions::known
   };
   /// @param cache  of the domain; only its covers are used, now.
   /// @param priors  what people know at first: one per state of mind, the first of them that of everybody.

@@ -9,6 +9,7 @@
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "kith/core/option_key.hpp"
+#include "kith/geometry/cone.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/pace.hpp"
@@ -80,9 +81,12 @@ struct TeachingOptions {
   HypothesesAbout hypotheses_about = HypothesesAbout::kAbility;
   /// The hypotheses of HypothesesAbout::kKinds, with which the bank is always kept.
   std::vector<LearnerHypothesis> kinds{};
-  Pace pace{};              ///< for people who forget with time, and for all minutes that are assumed
-  bool shares_bank = true;  ///< Members to whom the same happens share what the bank has of them; not before kith did.
-  bool keep_bank = false;   ///< the bank is kept even if nobody reads it
+  Pace pace{};  ///< for people who forget with time, and for all minutes that are assumed
+  /// What members know of the robot as it was before: a region within the prior, in which beliefs about them begin
+  /// (OlderRobot). Nothing: members know the prior only.
+  std::optional<Cone> known{};
+  bool shares_bank = true;    ///< Members to whom the same happens share what the bank has of them; not before kith did.
+  bool keep_bank = false;     ///< the bank is kept even if nobody reads it
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules
 };
