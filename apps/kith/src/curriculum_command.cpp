@@ -5,6 +5,7 @@
 #include "build_facts.hpp"
 #include "command.hpp"
 #include "embedded.hpp"
+#include "input.hpp"
 #include "kith/bec/memory_needs.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
@@ -21,7 +22,8 @@ namespace {
 
 struct CurriculumCommandOptions {
   std::string domain;
-  std::string out;  ///< Where the page goes; "-" is standard output; empty: no page.
+  std::string knowing;  ///< The robot before an update, which people know; empty: they know nothing.
+  std::string out;      ///< Where the page goes; "-" is standard output; empty: no page.
   std::uint64_t seed = 1;
 };
 
@@ -35,6 +37,7 @@ class CurriculumText {
     out_ = console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n" +
            legend(domain_, 0);
     if (const auto explained = explained_in_words(domain_); !explained.empty()) line("Note: " + explained + ".", 0);
+    if (curriculum_.update) line(curriculum_.update->text, 0);
     for (std::size_t i = 0; i < curriculum_.components.size(); ++i) component(i);
     for (const auto& one : curriculum_.skipped) out_ += "\nNot taught: " + one.name + "; " + one.why + ".\n";
     return out_;
@@ -125,6 +128,7 @@ class CurriculumText {
 void declare(OptionList& list, CurriculumCommandOptions& options) {
   list.domain(options.domain).required();
   list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
+  list.text("--knowing", options.knowing, "DOMAIN", "The robot before an update, which people know");
   list.integer("--seed", options.seed, {}, "Seed of all random streams");
   list.json();
 }
@@ -136,6 +140,7 @@ int run(const CurriculumCommandOptions& options, Console& console) {
   const Atlas atlas{std::move(domain)};
   CurriculumOptions how;
   how.seed = options.seed;
+  if (!options.knowing.empty()) how.teaching.known = known_before(options.knowing, atlas);
   const auto curriculum = make_curriculum(atlas, how);
   if (options.out.empty() && !console.json()) {
     console.print(CurriculumText{atlas, curriculum, console}.text());
@@ -153,7 +158,9 @@ int run(const CurriculumCommandOptions& options, Console& console) {
 void add_curriculum(Commands& commands) {
   commands.add<CurriculumCommandOptions>(
       "curriculum", "Show what would be taught: demonstrations with reasons, and tests",
-      {"kith curriculum item-delivery", "kith curriculum my-domain.toml -o lesson.html"}, declare, run);
+      {"kith curriculum item-delivery", "kith curriculum my-domain.toml -o lesson.html",
+       "kith curriculum new.toml --knowing old.toml"},
+      declare, run);
 }
 
 }  // namespace kith::cli

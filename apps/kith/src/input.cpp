@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/teaching/older_robot.hpp"
 #include "kith/toml/document.hpp"
 #include "kith/toml/file.hpp"
 
@@ -81,6 +83,17 @@ void show_warnings(const StudyReading& reading, Console& console) {
   }
   console.show(shown);
   if (!of_domain.empty()) console.info(fmt::format("about the domain: {} (kith validate {})", listed(of_domain), file));
+}
+
+Cone known_before(const std::string& older, const Atlas& newer) {
+  auto domain = load_domain(older);
+  if (const auto why = why_incomparable(domain, newer.domain()); !why.empty())
+    refuse("--knowing " + older + ": " + why, "name a domain file with the same features in the same order");
+  require_teaching_memory(domain);
+  const auto robot = older_robot(Atlas{std::move(domain)});
+  if (const auto known = known_within(newer.prior_cone(), robot.region)) return *known;
+  refuse("--knowing " + older + ": no weights satisfy what people knew and the prior of " + newer.domain().id(),
+         "leave out of the prior what did not hold before the update");
 }
 
 MdpIndex mdp_called(const Domain& domain, const std::string& number_or_name) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "console.hpp"
+#include "kith/bec/atlas.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/study/study_file.hpp"
 
@@ -30,6 +31,11 @@ struct InputText {
 
 /// Shows what there is to say about a study file, and names what `kith validate` says about its domain.
 void show_warnings(const StudyReading& reading, Console& console);
+
+/// What people believe of a robot who knew it before an update: the region of the older domain, a built-in name or a
+/// file, within the prior of the newer one. @throws UsageError if the domains have other features, or nobody can know
+/// both; kith::Error as load_domain().
+[[nodiscard]] Cone known_before(const std::string& older, const Atlas& newer);
 
 /// The MDP of this number or name. @throws UsageError if there is none; it lists the names.
 [[nodiscard]] MdpIndex mdp_called(const Domain& domain, const std::string& number_or_name);

@@ -21,7 +21,8 @@ namespace kith::cli {
 namespace {
 
 struct LessonOptions {
-  std::string what;  ///< A study or a domain.
+  std::string what;     ///< A study or a domain.
+  std::string knowing;  ///< The robot before an update, which everybody knows; empty: as the study says.
   std::string out;
   std::vector<std::string> set;
   std::vector<std::string> origins;
@@ -53,6 +54,17 @@ StudyReading reading_of(const LessonOptions& options) {
   auto reading = parse_study(text, "the study of a lesson", {.overrides = set, .override_name = "--set"});
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
+}
+
+// The same for people who know the robot as it was before an update.
+StudyReading reading_for(LessonOptions options) {
+  auto reading = reading_of(options);
+  if (options.knowing.empty()) return reading;
+  for (const auto& type : reading.study->variants.front().learner_types) {
+    if (type.mixture.empty())
+      options.set.push_back(fmt::format("learner.{}.knowing={}", type.letter, quoted_toml(options.knowing)));
+  }
+  return reading_of(options);
 }
 
 // A scheme and a host, and perhaps a port: what a browser calls an origin.
@@ -88,6 +100,7 @@ void declare(OptionList& list, LessonOptions& options) {
   list.text("-o,--out", options.out, "FILE",
             "The lesson, one HTML file ('-' is standard output), or a .zip for learning systems")
       .required();
+  list.text("--knowing", options.knowing, "DOMAIN", "The robot before an update, which people know");
   list.flag("--playground", options.is_playground,
             "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
   list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
@@ -97,7 +110,7 @@ void declare(OptionList& list, LessonOptions& options) {
 int run(const LessonOptions& options, Console& console) {
   require_engine();
   const WorkNotice notice{console, "preparing the lesson"};
-  const auto reading = reading_of(options);
+  const auto reading = reading_for(options);
   console.show(reading.diagnostics);
   const auto folder = std::filesystem::path{options.what}.parent_path();
   auto document = lesson_document(make_session_study(reading, folder), program_name());

@@ -10,6 +10,7 @@
 #include "kith/domains/judgement.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/geometry/cover.hpp"
+#include "kith/teaching/older_robot.hpp"
 
 namespace kith {
 namespace {
@@ -57,9 +58,14 @@ class CurriculumMaker {
   CurriculumMaker(const Atlas& atlas, const CurriculumOptions& options)
       : atlas_{atlas}, options_{options}, cache_{atlas} {
     if (options.beliefs == 0) throw std::invalid_argument{"make_curriculum: there must be at least one belief"};
+    if (!older_) return;
+    update_ = update_of(atlas, *older_);
+    curriculum_.update = update_in_words(atlas, *older_);
+    known_ = together(std::move(known_), update_.still);
   }
 
   Curriculum make() {
+    if (older_ && update_.now.empty()) return std::move(curriculum_);
     const RandomStream root{options_.seed};
     auto teaching = options_.teaching;
     teaching.avoids_shortest = true;
@@ -68,9 +74,13 @@ class CurriculumMaker {
     while (session.propose(cache_)) {
       const auto lesson = session.lesson();
       for (; next < lesson.component; ++next) skip(next);
-      const auto before = session.taught_region();
+      const auto before = together(session.taught_region(), update_.still);
       if (curriculum_.components.empty() || curriculum_.components.back().component != lesson.component) {
         curriculum_.components.push_back(component(lesson, before));
+        if (curriculum_.components.back().demonstrations.empty()) {
+          curriculum_.components.pop_back();
+          skip(lesson.component);
+        }
       }
       next = lesson.component + 1;
       known_ = together(before, lesson.taught);
@@ -101,23 +111,26 @@ class CurriculumMaker {
     CurriculumComponent result;
     result.component = lesson.component;
     result.name = component_in_words(atlas_, lesson.component);
-    result.constraints = without(atlas_.constraints().half_spaces(taught.constraints), atlas_.domain().prior());
+    result.constraints = news(without(atlas_.constraints().half_spaces(taught.constraints), atlas_.domain().prior()));
     result.area_sr = taught.area_sr;
     auto known = before;
     for (const auto& shown : lesson.demonstrations) {
+      if (news(shown.half_spaces).empty()) continue;
       result.demonstrations.push_back(demonstration(shown, known));
       known = together(known, shown.half_spaces);
       result.demonstrations.back().brackets = brackets(atlas_.domain(), known, taught.features, reference_);
     }
-    const auto points = beliefs(before);
-    for (const auto& test : lesson.tests) result.tests.push_back(graded(test, points));
+    const auto points = beliefs(older_ ? older_->minimal_set() : before);
+    for (const auto& test : lesson.tests) {
+      if (!news(test.covered).empty()) result.tests.push_back(graded(test, points));
+    }
     std::stable_sort(result.tests.begin(), result.tests.end(),
                      [](const CurriculumTest& a, const CurriculumTest& b) { return a.share_right > b.share_right; });
     return result;
   }
 
   CurriculumDemonstration demonstration(const Demonstration& shown, const std::vector<HalfSpace>& known) {
-    auto conveys = without(shown.half_spaces, atlas_.domain().prior());
+    auto conveys = news(without(shown.half_spaces, atlas_.domain().prior()));
     KITH_ASSERT(!conveys.empty());  // else it would have had no gain
     const auto main = most_telling(conveys, known);
     auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, cells_of(shown.counterfactuals));
@@ -126,6 +139,12 @@ class CurriculumMaker {
     auto flip = nearest_flip(atlas_, *contrast);
     return {shown.demo,      std::move(conveys),    main, *std::move(contrast), std::move(sentence),
             std::move(flip), runs_from(shown.demo), {}};
+  }
+
+  // What people do not know of the robot as it was before.
+  [[nodiscard]] std::vector<HalfSpace> news(std::vector<HalfSpace> constraints) const {
+    if (older_) std::erase_if(constraints, [&](const HalfSpace& c) { return older_->implies(c); });
+    return constraints;
   }
 
   [[nodiscard]] std::vector<PolicyRun> runs_from(StartIndex demo) const {
@@ -199,7 +218,7 @@ class CurriculumMaker {
     auto random = RandomStream{options_.seed}.split("fresh");
     const auto n = std::min(starts.size(), atlas_.find_tables() ? kTried : kTriedWithoutTables);
     for (std::size_t i = 0; i < n; ++i) std::swap(starts[i], starts[i + uniform_index(starts.size() - i, random)]);
-    const auto points = beliefs(atlas_.domain().prior());
+    const auto points = beliefs(older_ ? older_->minimal_set() : atlas_.domain().prior());
 
     // The best tests are those that half of the people would answer rightly.
     std::vector<CurriculumTest> tried;
@@ -217,6 +236,8 @@ class CurriculumMaker {
   // Of what the components are about; of some there may be nothing left that could be shown.
   void keep_what_was_shown() {
     Cone shown = atlas_.prior_cone();
+    const bool is_possible = shown.clip(update_.still);
+    KITH_ASSERT(is_possible);  // the robot's weights lie inside
     for (const auto& component : curriculum_.components) {
       for (const auto& one : component.demonstrations) {
         const bool has_room = shown.clip(one.conveys);
@@ -248,6 +269,7 @@ class CurriculumMaker {
     const bool has_worlds = std::find(skipped.uses_mdp.begin(), skipped.uses_mdp.end(), true) != skipped.uses_mdp.end();
     if (!has_worlds) return "no world has only the features that it weighs";
     const auto constraints = atlas_.constraints().half_spaces(skipped.constraints);
+    if (older_ && news(constraints).empty()) return "it is as before the update";
     if (implied_by(atlas_.domain().prior(), constraints)) return "everybody knows it beforehand";
     if (implied_by(known_, constraints)) return "already implied by earlier parts";
     return "no further demonstration adds to the earlier ones";
@@ -256,6 +278,8 @@ class CurriculumMaker {
   const Atlas& atlas_;
   const CurriculumOptions& options_;
   TeachingCache cache_;
+  const std::optional<Cone>& older_ = options_.teaching.known;
+  RobotUpdate update_;
   Curriculum curriculum_;
   std::vector<HalfSpace> known_ = atlas_.domain().prior();
   std::size_t reference_ = reference_feature(atlas_.domain(), atlas_.knowledge_components());

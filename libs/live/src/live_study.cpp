@@ -218,6 +218,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
     identity += '/' + std::to_string(atlas->domain().mdp(m).num_states()) + atlas->domain().describe_world(m);
   }
   live->key = sha256(identity).substr(0, 8);
+  if (const auto& known = live->spec.teaching.known) live->update = update_in_words(*atlas, *known);
   live->atlas = std::move(atlas);
   require_cells(*live);
   require_places(*live);

@@ -3,6 +3,7 @@
 #include "exploration.hpp"
 #include "kith/explain/runs.hpp"
 #include "kith/present/board_json.hpp"
+#include "kith/present/curriculum_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"
@@ -366,7 +367,9 @@ Json robot_runs(const LiveStudy& study, StartIndex demo) {
 }
 
 Json study_texts_json(const LiveStudy& study) {
-  return {{"title", study.group().title}, {"story", study.group().story}, {"goal", study.group().goal}};
+  Json texts{{"title", study.group().title}, {"story", study.group().story}, {"goal", study.group().goal}};
+  if (study.update) texts["update"] = update_json(*study.update);
+  return texts;
 }
 
 Json redirect_json(const LiveStudy& study, const std::string& code, const Json& query) {

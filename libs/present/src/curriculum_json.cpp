@@ -115,6 +115,10 @@ Json test_json(const Atlas& atlas, const CurriculumTest& test, Tables& tables) {
 
 }  // namespace
 
+Json update_json(const UpdateInWords& update) {
+  return {{"text", update.text}, {"now", update.now}, {"still", update.still}, {"news", update.news}};
+}
+
 Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint64_t seed, const std::string& program) {
   Tables tables{atlas};
   Json components = Json::array();
@@ -155,6 +159,7 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
                 {"fresh", fresh},
                 {"endless", endless},
                 {"skipped", skipped}};
+  if (curriculum.update) document["update"] = update_json(*curriculum.update);
   if (auto explained = explained_to_people(atlas.domain()); !explained.empty())
     document["explained"] = std::move(explained);
   return document;

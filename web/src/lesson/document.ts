@@ -55,6 +55,7 @@ export interface Lesson {
   program: string;
   seed?: number;
   domain: Domain;
+  update?: { text: string; now: string[]; still: string[] }; // for those who know the robot as it was
   explained?: string; // how much of what the robot does the lesson explains, where it is not all
   judge: Judge;
   tables: { moves: JudgedWorld[]; worlds: Record<string, { moves: number; counts: string[]; kinds: number[][] }> };

@@ -37,7 +37,7 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
           {lesson.components.map((component) => (
             <ComponentView component={component} {...context} />
           ))}
-          <End {...context} predictions={predictions} />
+          {lesson.components.length > 0 && <End {...context} predictions={predictions} />}
           {isPrinting && <Answers {...context} />}
           <Notices lesson={lesson} />
         </main>
@@ -89,12 +89,14 @@ function Introduction({ lesson }: { lesson: Lesson }): JSX.Element {
   const n = lesson.components.length;
   const boards = lesson.components.reduce((sum, { demonstrations, tests }) => sum + demonstrations.length + tests.length, 0);
   const habit = `${lesson.explained ? 'Here it' : 'It'} always takes the path that is best for it.`;
+  const { update } = lesson;
   const [least, most] = [Math.ceil(boards * kMinutes.least), Math.ceil(boards * kMinutes.most)];
   return (
     <section id="introduction" aria-labelledby="introduction-title">
       <h2 id="introduction-title">How it works</h2>
       {lesson.domain.job && <p class="job">{lesson.domain.job}</p>}
-      <p>
+      {update && <p>{update.text}</p>}
+      <p hidden={n === 0}>
         {habit} Your task is to find out what it likes and dislikes. {lesson.explained && `${lesson.explained} `}
         The lesson has {counted(n, 'part')} with {counted(boards, 'board')} in all, and takes about {least} to {most} minutes. On every board
         you show first what you think the robot will do. In the tests you are told whether you were right.

@@ -57,7 +57,7 @@ function shownBy({ demonstrations }: Component, all: Component[], text: string):
 
 function Portrait({ predictions, ...context }: EndProps): JSX.Element {
   const isPrinting = usePrinting();
-  const { components, skipped, endless } = context.lesson;
+  const { components, skipped, endless, update } = context.lesson;
   const known = new Map<number, Bracket>();
   for (const { brackets } of components.flatMap(({ demonstrations }) => demonstrations)) {
     for (const bracket of brackets) known.set(bracket.feature, bracket);
@@ -92,7 +92,9 @@ function Portrait({ predictions, ...context }: EndProps): JSX.Element {
           </li>
         </ul>
       )}
+      {update && <h3>What is new</h3>}
       {shown(lines.filter(({ things }) => things <= kEasy))}
+      {update && update.still.length > 0 && <p>As before, {update.still.join('; ')}.</p>}
       {fine.length > 0 && (
         <Folded summary={`${counted(fine.length, 'finer trade-off')}, of more than ${kEasy} things`} isOpen={isPrinting}>
           {shown(fine)}

@@ -78,12 +78,19 @@ export interface Pause {
   missing: number;
 }
 
+// What is new about a robot, and what is not, for those who know it as it was.
+export interface Update {
+  now: string[];
+  still: string[];
+  news: string[]; // all that is new, also what weighs many things
+}
+
 export interface ParticipantView {
   v: 1;
   stage: Stage;
   lang: string;
   dir: 'ltr' | 'rtl';
-  study: { title: string; story: string[]; goal: string };
+  study: { title: string; story: string[]; goal: string; update?: Update };
   me: { seat: number; label: string };
   group: { size: number; active: number };
   notices: { text: string; at_ms: number }[];

@@ -5,9 +5,10 @@ import { useDrive } from '../../shared/play/drive';
 import { BoardAlone, Driver } from '../../shared/play/driver';
 import { Job, useLegend } from '../../shared/play/board_pane';
 import { Button, Heading, Paragraphs } from '../parts/ui';
+import type { Update } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { driveStore, keep, recall } from '../storage';
-import { t } from '../../shared/texts';
+import { sentence, t } from '../../shared/texts';
 import { plainWorld, type World } from '../../shared/play/world';
 import { useWorld } from '../world';
 
@@ -33,6 +34,7 @@ export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
     <form class="intro" onSubmit={go}>
       <Heading>{t('intro.title')}</Heading>
       <Paragraphs texts={story} />
+      {view.study.update && <Paragraphs texts={updated(view.study.update)} />}
       <Job board={check.board} />
       {goal && <p class="goal">{goal}</p>}
       <p>{t('intro.how')}</p>
@@ -64,6 +66,14 @@ export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
     </form>
   );
 }
+
+// What is new about a robot that people knew as it was, and what is not.
+const updated = ({ now, still }: Update): string[] => [
+  t(now.length > 0 ? 'intro.updated' : 'intro.not_changed'),
+  ...now.map(sentence),
+  ...(now.length > 0 && still.length > 0 ? [t('intro.as_before')] : []),
+  ...still.map(sentence),
+];
 
 // A round takes about two minutes, and most parts take one to four of them.
 const minutesOf = (parts: number, most: number): { least: number; most: number } => ({

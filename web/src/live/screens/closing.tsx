@@ -6,7 +6,7 @@ import { SmallBoard } from '../../shared/play/small_board';
 import { remembered, type Memory } from '../memory';
 import { Explore } from '../parts/explore';
 import { Button, CompletionCode, GoOn, Heading } from '../parts/ui';
-import type { Judged, ParticipantView } from '../protocol';
+import type { Judged, ParticipantView, Update } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { pathOf } from './feedback';
 import { hasText, isEnglish, sentence, t, type TextKey } from '../../shared/texts';
@@ -26,7 +26,7 @@ export function Debrief({ debrief, isSaved, view, connection }: DebriefProps): J
       {tests > 0 && <p>{t('debrief.score', { right, tests, rounds })}</p>}
       {code && <CompletionCode code={code} />}
       <GoOn address={redirect} isSaved={isSaved} />
-      <Sentences name="summary" texts={summary} boards={memory.boards} />
+      <Sentences name="summary" texts={summary} boards={memory.boards} update={view.study.update} />
       <Sentences name="not_reached" texts={not_reached} />
       <FirstAndLast {...memory} />
       {view.explore && (
@@ -49,11 +49,13 @@ interface SentencesProps {
   name: 'summary' | 'not_reached';
   texts: string[];
   boards?: Record<string, Judged>; // on which they were seen
+  update?: Update | undefined; // what of it is new
 }
 
 // What the robot is like, as far as the group was taught it, or as far as it was not.
-function Sentences({ name, texts, boards }: SentencesProps): JSX.Element | null {
+function Sentences({ name, texts, boards, update }: SentencesProps): JSX.Element | null {
   if (texts.length === 0) return null;
+  const isNew = (text: string): boolean => update?.news.some((one) => sentence(one) === sentence(text)) ?? false;
   return (
     <section class="summary" aria-labelledby={`${name}-title`}>
       <h2 id={`${name}-title`}>{t(`debrief.${name}`)}</h2>
@@ -62,7 +64,7 @@ function Sentences({ name, texts, boards }: SentencesProps): JSX.Element | null 
           const test = boards?.[text];
           return (
             <li>
-              {sentence(text)}
+              {sentence(text)} {isNew(text) && <em>{t('debrief.new')}</em>}
               {test && <Picture test={test} isAlone />}
             </li>
           );

@@ -8,6 +8,7 @@
 #include "kith/explain/bracket.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/runs.hpp"
+#include "kith/explain/update.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -62,6 +63,9 @@ struct Curriculum {
   /// For those who have learned everything: tests in worlds that they have not seen, which about half of the beliefs
   /// of the prior answer right.
   std::vector<CurriculumTest> fresh;
+  /// With TeachingOptions::known, for people who know the robot as it was: then all the rest is about what is new, and
+  /// there is nothing of it if nothing is.
+  std::optional<UpdateInWords> update;
   std::optional<StartIndex> endless;  ///< The simplest start from which the robot never arrives, if there is one.
 };
 

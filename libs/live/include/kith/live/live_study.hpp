@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/explain/update.hpp"
 #include "kith/present/json.hpp"
 #include "kith/study/study.hpp"
 #include "kith/teaching/forecast.hpp"
@@ -31,8 +33,9 @@ struct LiveStudy {
   LiveLanguage language;
   StartIndex sandbox;  ///< Where people try the keyboard: at least two steps from the end if possible, then
                        ///< a start that tests nothing.
-  std::vector<StartIndex> screening;  ///< The tests of `group.screening`.
-  std::string key;                    ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
+  std::vector<StartIndex> screening;      ///< The tests of `group.screening`.
+  std::optional<UpdateInWords> update{};  ///< For people who know the robot as it was before an update.
+  std::string key;                        ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
   /// Imagined sessions by strategy and composition, for forecasts; empty unless StudySpec::forecast_sessions.
   std::map<std::pair<std::string, std::string>, std::vector<PastSession>> imagined;
 

@@ -13,6 +13,9 @@ namespace kith {
 [[nodiscard]] Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint64_t seed,
                                    const std::string& program);
 
+/// What is new and what is not, for people who know the robot as it was.
+[[nodiscard]] Json update_json(const UpdateInWords& update);
+
 /// The same, smaller: where every outcome is certain, paths have the names of their "actions" in place of their frames,
 /// which a page works out from the tables of moves.
 [[nodiscard]] Json for_page(Json curriculum);
