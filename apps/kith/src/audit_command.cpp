@@ -8,6 +8,7 @@
 
 #include "build_facts.hpp"
 #include "command.hpp"
+#include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
@@ -35,6 +36,7 @@ struct AuditCommandOptions {
   std::optional<std::size_t> team;  ///< Number of a team of a run; none: all.
   std::string room;                 ///< Id or code of a room of a live session; empty: all.
   std::string out;                  ///< Where the page goes; "-" is standard output; empty: no page.
+  std::string knowing;              ///< The robot before an update, which people knew; empty: as the study says.
   double forgetting = 0.02;         ///< Radians per period without lessons.
   std::size_t threads = 0;          ///< 0: as many as there are cores.
   ProgressMode progress = ProgressMode::kAuto;
@@ -82,6 +84,9 @@ class RunAudit {
     study_ = *std::move(reading.study);
     require_teaching_memory(*reading.domain);
     atlas_ = std::make_unique<const Atlas>(*std::move(reading.domain));
+    if (!options.knowing.empty()) {
+      for (auto& variant : study_.variants) variant.teaching.known = known_before(options.knowing, *atlas_);
+    }
     read(Journal::read(folder / kJournalFile));
   }
 
@@ -179,6 +184,7 @@ class AuditText {
       group = person.group;
       out_ += "\n" + title_of(person) + "\n";
       if (const auto caution = caution_in_words(person.audit); !caution.empty()) line(caution, 2);
+      if (const auto older = older_in_words(person.audit); !older.empty()) line(older, 2);
       if (const auto knows = person.audit.knowledge())
         line(fmt::format("knows {} of what was taught", percent(*knows)), 2);
       if (!person.kinds.empty()) line("kind of learner: " + kinds_in_words(person.kinds), 2);
@@ -204,6 +210,7 @@ class AuditText {
     }
     out_ += table.text(console_) + "\n";
     line(agreement_in_words(report_), 0);
+    if (const auto older = older_in_words(report_); !older.empty()) line(older, 0);
     const auto shared = shared_misconceptions(report_);
     if (!shared.empty()) out_ += "\nMisconceptions, with the number of people\n";
     for (const auto& misconception : shared) {
@@ -273,6 +280,8 @@ void declare(OptionList& list, AuditCommandOptions& options) {
   list.integer("--team", options.team, {1}, "Only this team of a run, as numbered in teams.csv");
   list.text("--room", options.room, "ID", "Only this room of live sessions, by id or code");
   list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
+  list.text("--knowing", options.knowing, "DOMAIN",
+            "The robot before an update: who still believes it to be like that?");
   list.number("--forgetting", options.forgetting, "ANGLE", {0.0, kLargestNumber},
               "Radians by which beliefs blur in a period without lessons; 0: people forget nothing");
   list.threads(options.threads);
@@ -285,9 +294,16 @@ int run(const AuditCommandOptions& options, Console& console) {
   std::error_code none;
   if (fs::exists(folder / kEventFile, none)) {
     if (options.team) refuse("--team is for run folders; --room ID names a room of a live session");
-    const auto audit = audit_session(
-        EventFile::read(folder),
-        {.source = options.folder, .room = options.room, .forgetting = options.forgetting, .on_progress = {}});
+    const auto audit =
+        audit_session(EventFile::read(folder), {.source = options.folder,
+                                                .room = options.room,
+                                                .forgetting = options.forgetting,
+                                                .on_progress = {},
+                                                .known = [&](const Atlas& atlas) -> std::optional<Cone> {
+                                                  return options.knowing.empty()
+                                                             ? std::nullopt
+                                                             : std::optional{known_before(options.knowing, atlas)};
+                                                }});
     return show(*audit.study->atlas, audit.report, options, console);
   }
   if (!options.room.empty()) refuse("--room is for live sessions; --team N names a team of a run");

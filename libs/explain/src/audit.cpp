@@ -133,6 +133,7 @@ PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, std::shared_
   person.guessing = bank.probability_of_guessing();
   if (person.is_explained) {
     judge(bank, periods, person);
+    if (options_.bank.known) person.believes_older = probability_of_older(bank);
   } else {
     judge_by_answers(person);
   }
@@ -166,6 +167,14 @@ void Auditor::judge(const MisconceptionBank& bank, std::span<const ObservedPerio
       choose_demonstration(bank, k, periods, *audit.misconception);
     }
   }
+}
+
+double Auditor::probability_of_older(const MisconceptionBank& bank) const {
+  auto both = options_.bank.known->minimal_set();
+  const double older = bank.probability_of(both);
+  const auto& now = cache_->atlas().policy_bec_half_spaces();
+  both.insert(both.end(), now.begin(), now.end());
+  return std::max(0.0, older - bank.probability_of(both));
 }
 
 // Nothing is known of how these people learn, or of whether they will remember.

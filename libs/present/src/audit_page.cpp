@@ -215,6 +215,7 @@ class Page {
     }
     out_ += "</table></div>\n";
     out_ += tag("p", agreement_in_words(report_));
+    if (const auto older = older_in_words(report_); !older.empty()) out_ += tag("p", older);
   }
 
   void misconceptions() {
@@ -242,6 +243,7 @@ class Page {
     if (const auto knows = person.audit.knowledge()) {
       out_ += tag("p", fmt::format("Knows {} of what was taught.", percent(*knows)));
     }
+    if (const auto older = older_in_words(person.audit); !older.empty()) out_ += tag("p", "This person " + older + ".");
     if (!person.kinds.empty()) out_ += tag("p", "Kind of learner: " + kinds_in_words(person.kinds) + ".");
     for (const auto& audit : person.audit.components) component(audit);
   }

@@ -11,6 +11,7 @@ AuditOptions audit_options(const TeachingOptions& teaching, double forgetting) {
   AuditOptions options;
   options.bank.filter = teaching.filter;
   options.bank.likelihood = teaching.likelihood;
+  options.bank.known = teaching.known;
   options.forgetting = forgetting;
   return options;
 }

@@ -108,6 +108,25 @@ std::string caution_in_words(const PersonAudit& audit) {
   return "";
 }
 
+std::string older_in_words(const PersonAudit& audit) {
+  if (!audit.believes_older) return "";
+  return fmt::format("still believes in the robot as it was before the update with probability {:.0f} %",
+                     100.0 * *audit.believes_older);
+}
+
+std::string older_in_words(const AuditReport& report) {
+  constexpr double kLikely = 0.5;
+  if (!report.options.bank.known) return "";
+  std::vector<std::string> who;
+  for (const auto& person : report.people) {
+    if (person.audit.believes_older.value_or(0.0) >= kLikely) who.push_back(person.group + ": " + title_of(person));
+  }
+  std::string text = who.empty() ? "Nobody seems to believe" : "These people seem to believe";
+  text += " still in the robot as it was before the update";
+  for (std::size_t i = 0; i < who.size(); ++i) text += (i == 0 ? ": " : "; ") + who[i];
+  return text + ".";
+}
+
 std::string need_in_words(const PersonAudit& audit) {
   constexpr double kLikely = 0.5;
   constexpr std::size_t kSeveral = 2;  // lessons; after the first one, misconceptions are common
@@ -300,6 +319,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"learning", person.audit.learning},
                       {"guessing", person.audit.guessing},
                       {"components", std::move(audits)}});
+    if (person.audit.believes_older) people.back()["believes_older"] = *person.audit.believes_older;
     if (person.kinds.empty()) continue;
     people.back()["kind"] = kind_word(person.kinds);
     for (const auto& [kind, probability] : person.kinds) people.back()["kinds"][kind] = probability;

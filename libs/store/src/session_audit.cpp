@@ -45,7 +45,9 @@ TaughtRoom taught_in(EventFile& file, const StoredRoom& stored, const std::share
 
 SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
   SessionAudit result{restore_session_study(file.identity().inputs).study, {}};
-  const auto& teaching = result.study->spec.teaching;
+  auto judged = *result.study;  // rooms replay as they were
+  auto& teaching = judged.spec.teaching;
+  if (auto known = options.known ? options.known(*judged.atlas) : std::nullopt) teaching.known = std::move(known);
   auto& report = result.report;
   report.source = options.source;
   report.options = audit_options(teaching, options.forgetting);
@@ -56,7 +58,7 @@ SessionAudit audit_session(EventFile file, const SessionAuditOptions& options) {
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     if (options.on_progress) options.on_progress(i, rooms.size());
     auto room = taught_in(file, rooms[i], result.study, cache);
-    for (auto& person : audit_room(cache, *result.study, room.setup, std::move(room.people), options.forgetting)) {
+    for (auto& person : audit_room(cache, judged, room.setup, std::move(room.people), options.forgetting)) {
       if (withdrawn.count({rooms[i].number, person.seat}) != 0) continue;
       report.people.push_back(std::move(person));
     }

@@ -87,6 +87,10 @@ struct PersonAudit {
   bool is_explained = true;
   double learning = 1.0;  ///< Probability that lessons (still) reach the person.
   double guessing = 0.0;  ///< Probability that the answers are guesses, or any paths.
+  /// Probability that the person believes the robot to be as it was before an update, where that is not how it is now:
+  /// of weights in AuditOptions::bank.known but outside the policy's class. Nothing without an update, or if no
+  /// hypothesis explains the answers.
+  std::optional<double> believes_older{};
 
   /// The one figure for what the person knows: how often they are expected to get all of a component right, as a mean
   /// over the components that they were taught; nothing before the first lesson.
@@ -142,6 +146,7 @@ class Auditor {
   void count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const;
   void judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods, PersonAudit& person);
   void judge_by_answers(PersonAudit& person) const;
+  [[nodiscard]] double probability_of_older(const MisconceptionBank& bank) const;
   [[nodiscard]] std::optional<LikelyMisconception> misconception(const MisconceptionBank& bank, std::size_t component,
                                                                  std::span<const ObservedPeriod> periods);
   [[nodiscard]] Misbelief limited(const MisconceptionBank& bank, const HalfSpace& violated) const;

@@ -17,6 +17,8 @@ struct SessionAuditOptions {
   double forgetting = kForgetting;  ///< AuditOptions::forgetting.
   /// Told how many rooms are judged, of how many; what it throws ends the audit.
   std::function<void(std::size_t done, std::size_t total)> on_progress;
+  /// What people knew of the robot before an update, see TeachingOptions::known; nothing: as the study says.
+  std::function<std::optional<Cone>(const Atlas&)> known{};
 };
 
 /// A live session, and who of its people understands what.

@@ -1,0 +1,54 @@
+// kith curriculum, study and audit for people who know the robot as it was before an update.
+#include <gtest/gtest.h>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+std::string updated(const std::string& name) { return std::string{KITH_SOURCE_DIR} + "/tests/updates/" + name; }
+
+TEST(KnowingCommand, PrintsWhatIsNewAndWhatIsNot) {
+  const auto ran = run_kith({"curriculum", updated("rubble_free.toml"), "--knowing", "item-delivery"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("The robot has been updated. Now crossing rubble is better than 2 steps."));
+  EXPECT_THAT(ran.out, HasSubstr("it is as before the update"));
+  const auto document =
+      Json::parse(run_kith({"curriculum", updated("rubble_free.toml"), "--knowing", "item-delivery", "--json"}).out);
+  EXPECT_EQ(document.at("update").at("now"), Json::array({"crossing rubble is better than 2 steps"}));
+
+  const auto same = run_kith({"curriculum", "item-delivery", "--knowing", updated("unchanged.toml")});
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.out, AllOf(HasSubstr("it decides as before"), Not(HasSubstr("Demonstration"))));
+
+  const auto other = run_kith({"curriculum", "item-delivery", "--knowing", "two-goals"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("weighs other features"));
+}
+
+// Who gets a lesson about the new robot and who gets none are told apart by what they answer.
+TEST(KnowingCommand, SaysWhoStillBelievesInTheOlderRobot) {
+  const Scratch scratch;
+  const auto run = scratch / "run";
+  const auto study = run_kith({"study", "quick", "-o", run, "-q", "--set", "replicates=1", "--set",
+                               "domain=\"" + updated("rubble_free.toml") + "\"", "--set",
+                               "learner.N.knowing=\"item-delivery\"", "--set", "learner.P.knowing=\"item-delivery\""});
+  ASSERT_EQ(study.code, 0) << study.err;
+  const auto told = run_kith({"audit", run});
+  EXPECT_EQ(told.code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("believe still in"));
+  EXPECT_THAT(told.out, HasSubstr("as it was before the update with probability"));
+  // The study says what people knew; so can whoever asks.
+  EXPECT_EQ(run_kith({"audit", run, "--knowing", "item-delivery"}).out, told.out);
+  const auto document = Json::parse(run_kith({"audit", run, "--json"}).out);
+  for (const auto& person : document.at("people")) {
+    EXPECT_GE(person.at("believes_older"), 0.0);
+    EXPECT_LE(person.at("believes_older"), 1.0);
+  }
+
+  const auto dry = run_kith({"study", "quick", "--dry-run", "--set", "learner.N.knowing=\"item-delivery\""});
+  EXPECT_THAT(dry.out, HasSubstr("learners N know the robot before an update, item-delivery"));
+}
+
+}  // namespace
+}  // namespace kith::testing
