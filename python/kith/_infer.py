@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any, NamedTuple
 
 from . import _core
 from ._models import _numbers, file_from_arrays
+from .convert import policy_text
 
 
 class Explanation(NamedTuple):
@@ -31,7 +31,7 @@ class Explanation(NamedTuple):
 
 
 def _choices(policy: Any, states: int, actions: int) -> Any:
-    """Actions, shape [S], or probabilities, shape [S, A], as JSON; None for a state in which nothing is known."""
+    """Actions, shape [S], or probabilities, shape [S, A]; None for a state in which nothing is known."""
     import numpy as np
 
     known = [s for s, one in enumerate(policy) if one is not None]
@@ -54,7 +54,7 @@ def infer(transitions: Any, features: Any, policy: Any, **options: Any) -> tuple
     """The domain with weights that explain the policy, and how well they do."""
     text, name, files = file_from_arrays(transitions, features, None, **options)
     states, actions = _numbers(transitions, "transitions").shape[:2]
-    domain, found = _core.infer(text, name, files, json.dumps(_choices(policy, states, actions)))
+    domain, found = _core.infer(text, name, files, policy_text(_choices(policy, states, actions)))
     return domain, Explanation(**found)
 
 

@@ -1,15 +1,13 @@
-"""Domain files of models in memory: they are written in Gymnasium's layout, and read as any other file is."""
+"""Domain files of models in memory: they are written as tables, and read as any other file is."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any, Optional
 
 from . import _core
 from ._settings import toml_text
-
-FILE = "model.json"
+from .convert import gym_tables
 
 
 def _names(names: Optional[Sequence[str]], count: int, what: str) -> list[str]:
@@ -70,10 +68,11 @@ def _file(table: list[Any], features: Sequence[str], weights: Optional[Mapping[s
         mdp["max_steps"] = int(max_steps)
     file: dict[str, Any] = {
         "schema": "kith.domain/1", "id": id, "title": title or f"A robot of {len(table)} states", "mdp": mdp,
-        "model": {"format": "gym-json", "mdp": [{"file": FILE}]}}
-    if features:
-        file["feature"] = [{"name": name} for name in features]
-    if weights is not None:
+        "model": {"format": "csv", "states": "states.csv", "transitions": "transitions.csv"}}
+    texts, found = gym_tables(model, features)
+    file["feature"] = [{"name": name} for name in features or found]
+    weights = weights or found
+    if weights:
         file["reward"] = {"weights": {name: _tidy(one) for name, one in weights.items()}}
     if prior is not None:
         rows = prior if all(isinstance(one, Mapping) for one in prior) else [
@@ -85,7 +84,7 @@ def _file(table: list[Any], features: Sequence[str], weights: Optional[Mapping[s
         file["map"] = dict(map)
     if words is not None:
         file["words"] = dict(words)
-    return toml_text(file), id, {FILE: json.dumps(model)}
+    return toml_text(file), id, {"states.csv": texts.states, "transitions.csv": texts.transitions}
 
 
 def _feature_array(features: Any, shape: tuple[int, int], what: str) -> Any:

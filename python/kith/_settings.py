@@ -8,7 +8,8 @@ from typing import Any
 _PLAIN = set("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
 
 
-def _key(name: object) -> str:
+def toml_key(name: object) -> str:
+    """A key as TOML writes it."""
     if not isinstance(name, str):
         raise TypeError(f"keys of a study are text, not {name!r}")
     return name if name and set(name) <= _PLAIN else _text(name)
@@ -27,7 +28,7 @@ def toml_value(value: Any) -> str:
     if isinstance(value, str):
         return _text(value)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(k)} = {toml_value(v)}" for k, v in value.items()) + " }"
+        return "{ " + ", ".join(f"{toml_key(k)} = {toml_value(v)}" for k, v in value.items()) + " }"
     if hasattr(value, "tolist"):  # numbers and arrays of numpy
         return toml_value(value.tolist())
     if isinstance(value, int):
@@ -46,9 +47,9 @@ def toml_text(table: Mapping[str, Any], path: str = "") -> str:
     for name, value in table.items():
         is_list_of_tables = isinstance(value, (list, tuple)) and bool(value) and all(isinstance(v, Mapping) for v in value)
         if isinstance(value, Mapping) or is_list_of_tables:
-            tables.append((path + _key(name), value))
+            tables.append((path + toml_key(name), value))
         else:
-            lines.append(f"{_key(name)} = {toml_value(value)}\n")
+            lines.append(f"{toml_key(name)} = {toml_value(value)}\n")
     for name, value in tables:
         for one in [value] if isinstance(value, Mapping) else value:
             head = f"[{name}]" if isinstance(value, Mapping) else f"[[{name}]]"

@@ -270,7 +270,6 @@ Commands all_commands() {
   add_audit(commands);
   add_serve(commands);
   add_session(commands);
-  add_export(commands);
   add_explain(commands);
   add_doctor(commands);
   add_version(commands);

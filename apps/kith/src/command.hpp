@@ -221,7 +221,6 @@ void add_curriculum(Commands& commands);
 void add_lesson(Commands& commands);
 void add_doctor(Commands& commands);
 void add_explain(Commands& commands);
-void add_export(Commands& commands);
 void add_find(Commands& commands);
 void add_fit(Commands& commands);
 void add_infer(Commands& commands);

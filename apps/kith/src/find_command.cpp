@@ -95,13 +95,11 @@ Error infeasible(const std::string& id, const std::string& message, const std::s
 }
 
 Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
-  const auto by_export =
-      fmt::format("it has no map; kith export --mdp {} writes it, with a domain file beside it", world.value());
   return infeasible(
       "E1112",
       fmt::format("{} of '{}' cannot be written as a domain file of its own", world_text(domain, world), domain.id()),
       domain.map() ? "its worlds are listed, or share layers: write its [map] by hand, one map and nothing optional"
-                   : by_export);
+                   : "it has no map: copy its tables without the rows of other worlds");
 }
 
 // The world as a domain file of its own.

@@ -14,6 +14,7 @@
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/domains/other_models.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/teaching/older_robot.hpp"
 #include "kith/toml/document.hpp"
@@ -41,6 +42,7 @@ std::string standard_input(std::size_t most) {
 
 InputText read_input(const std::string& file) {
   if (file == "-") return {"<stdin>", standard_input(kMaxTomlBytes + 1), {}};
+  refuse_models_of_others(file);
   const auto text = read_toml_text(file);
   if (!text) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + why_unreadable(file)};
   return {file, *text, std::filesystem::path{file}.parent_path()};

@@ -232,7 +232,7 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   const auto written = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml"});
   EXPECT_EQ(written.code, 4);
   EXPECT_THAT(written.err, AllOf(HasSubstr("world 0 of 'cliff' cannot be written"),
-                                 HasSubstr("help: it has no map; kith export --mdp 0 writes it")));
+                                 HasSubstr("help: it has no map: copy its tables")));
   const auto json = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml", "--json"});
   EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1112");
   EXPECT_FALSE(std::filesystem::exists(scratch / "one.toml"));
@@ -343,7 +343,7 @@ TEST(Texts, FitEightyColumns) {
                                                  {"ask", "item-delivery", "when does it recharge?"}};
   for (const std::string name : {"init",  "validate", "inspect", "curriculum", "ask",     "find",    "teach",
                                  "study", "status",   "verify",  "merge",      "explain", "analyze", "report",
-                                 "fit",   "export",   "doctor",  "power",      "session", "serve",   "audit"}) {
+                                 "fit",   "doctor",   "power",   "session",    "serve",   "audit"}) {
     commands.push_back({"help", name});
   }
   for (const auto& command : commands) {

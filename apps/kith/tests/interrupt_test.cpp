@@ -124,7 +124,6 @@ TEST(InterruptSlow, EndsEveryCommandOnALargeMap) {
                                                        {"curriculum", map},
                                                        {"ask", map, "what do you care about?"},
                                                        {"find", map},
-                                                       {"export", map, "--to", "json"},
                                                        {"teach", map, "--group", "NN"},
                                                        {"study", study, "-o", scratch / "run"},
                                                        {"power", study}};

@@ -132,79 +132,69 @@ TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
                              HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
 }
 
-TEST_F(Model, OfGymnasiumIsReadWithItsRewardsAsWeights) {
-  const auto ran = run_kith({"validate", std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("(1 world, 37 start states)"));
+// Of PRISM and Gymnasium, as a file of theirs and as a domain file that names one.
+TEST_F(Model, OfAnotherProgramIsConvertedFirst) {
+  for (const std::string name : {"m.tra", "lake.json"}) {
+    std::ofstream{scratch_ / name} << "[]";
+    for (const std::string command : {"validate", "inspect", "teach", "ask", "infer"}) {
+      std::vector<std::string> call{command, scratch_ / name};
+      if (command == "ask") call.emplace_back("why?");
+      if (command == "teach") call.insert(call.end(), {"--group", "N"});
+      if (command == "infer") call.insert(call.end(), {"--policy", "policy.csv"});
+      const auto ran = run_kith(call);
+      EXPECT_EQ(ran.code, 3) << command << ran.err;
+      EXPECT_THAT(ran.err, AllOf(HasSubstr("E0236"), HasSubstr("python -m kith.convert " + (scratch_ / name))));
+    }
+  }
+  edit("icy_crossing.toml", "\"csv\"", "\"gym-json\"");
+  const auto ran = run_kith({"inspect", scratch_ / "icy_crossing.toml"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("python -m kith.convert " + (scratch_ / "icy_crossing.toml") + " -o NEW.toml"));
 }
 
-TEST_F(Model, IsExported) {
-  const auto text = run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "gym-json"});
-  EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_EQ(Json::parse(text.out).at("title"), "icy-crossing, world 1 (wet ice)");
-  const auto ran =
-      run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 7) << ran.out;
-  EXPECT_EQ(run_kith({"validate", scratch_ / "wet.toml"}).code, 0);
-  const auto again =
-      run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet"});
-  EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("--yes"));
-}
-
-TEST_F(Model, IsExportedOnlyAsItCanBe) {
-  const auto ice = scratch_ / "icy_crossing.toml";
-  EXPECT_THAT(run_kith({"export", ice, "--to", "prism"}).err, HasSubstr("say which one with --mdp N, 0 to 2"));
-  EXPECT_THAT(run_kith({"export", ice, "--to", "prism", "--mdp", "3"}).err, HasSubstr("there is no world 3"));
-  EXPECT_THAT(run_kith({"export", ice, "--to", "prism", "--mdp", "0"}).err, HasSubstr("-o PREFIX"));
-  EXPECT_THAT(run_kith({"export", ice, "--to", "jani", "--mdp", "0"}).err, HasSubstr("one of: prism, gym-json"));
-}
-
-// The paper's world with everything in it, as another program would give it.
-class Delivery : public ::testing::Test {
+// The same without its picture.
+class Unpictured : public Model {
  protected:
-  Delivery() {
-    const auto ran =
-        run_kith({"export", "item-delivery", "--mdp", "63", "--to", "gym-json", "-o", scratch_ / "delivery.json"});
-    EXPECT_EQ(ran.code, 0) << ran.err;
+  Unpictured() {
+    const auto text = text_of(scratch_ / "icy_crossing.toml");
+    const auto begin = text.find("[model.drawing]"), end = text.find("[[feature]]");
+    std::ofstream{scratch_ / "icy_crossing.toml"} << text.substr(0, begin) + text.substr(end);
     auto study = text_of(std::string{KITH_SOURCE_DIR} + "/studies/quick.toml");
     const auto at = study.find("\"item-delivery\"");
     EXPECT_NE(at, std::string::npos);
-    study.replace(at, 15, "\"delivery.toml\"");
-    std::ofstream{scratch_ / "study.toml"} << study;
+    std::ofstream{scratch_ / "study.toml"} << study.replace(at, 15, "\"icy_crossing.toml\"");
   }
-  Scratch scratch_;
 };
 
-TEST_F(Delivery, IsTaughtInWords) {
-  const auto ran = run_kith({"teach", scratch_ / "delivery.toml", "--group", "N", "--seed", "1"});
+TEST_F(Unpictured, IsTaughtInWords) {
+  const auto ran = run_kith({"teach", scratch_ / "icy_crossing.toml", "--group", "N", "--seed", "1"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("lists of actions and states"), HasSubstr("-> robot")));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("lists of actions and states"), HasSubstr("-> ")));
   EXPECT_THAT(ran.out, Not(HasSubstr("bare map")));
-  const auto json = Json::parse(run_kith({"inspect", scratch_ / "delivery.toml", "--show", "demos", "--json"}).out);
-  EXPECT_THAT(json.at("demos").at(0).at("start").at("name").get<std::string>(), HasSubstr("robot at ("));
+  const auto json = Json::parse(run_kith({"inspect", scratch_ / "icy_crossing.toml", "--show", "demos", "--json"}).out);
+  EXPECT_THAT(json.at("demos").at(0).at("start").at("name").get<std::string>(), HasSubstr("at a"));
 }
 
-TEST_F(Delivery, IsStudiedResumedAndVerifiedFromItsFolder) {
+TEST_F(Unpictured, IsStudiedResumedAndVerifiedFromItsFolder) {
   const std::vector<std::string> study{"study", scratch_ / "study.toml", "-o", scratch_ / "run",
                                        "--set", "replicates=2"};
   const auto first = run_kith(study);
   ASSERT_EQ(first.code, 0) << first.err;
-  EXPECT_EQ(text_of(scratch_ / "run/inputs/delivery.json"), text_of(scratch_ / "delivery.json"));
-  EXPECT_THAT(text_of(scratch_ / "run/manifest.json"), HasSubstr("\"delivery.json\": \""));
+  const std::string states = "icy_crossing_states.csv";
+  EXPECT_EQ(text_of(scratch_ / ("run/inputs/" + states)), text_of(scratch_ / states));
+  EXPECT_THAT(text_of(scratch_ / "run/manifest.json"), HasSubstr("\"" + states + "\": \""));
   EXPECT_EQ(run_kith(study).code, 0);  // all teams are there
-  std::filesystem::remove(scratch_ / "delivery.json");
+  std::filesystem::remove(scratch_ / states);
   const auto verified = run_kith({"verify", scratch_ / "run"});
   EXPECT_EQ(verified.code, 0) << verified.err;
   EXPECT_EQ(run_kith({"teach", "--from", scratch_ / "run", "--team", "1"}).code, 0);
 }
 
-TEST_F(Delivery, IsAnotherStudyWithAnotherModel) {
+TEST_F(Unpictured, IsAnotherStudyWithAnotherModel) {
   const std::vector<std::string> study{"study", scratch_ / "study.toml", "-o", scratch_ / "run",
                                        "--set", "replicates=2"};
   ASSERT_EQ(run_kith(study).code, 0);
-  std::ofstream{scratch_ / "delivery.json", std::ios::app} << "\n";
+  edit("icy_crossing_states.csv", "on the bank", "at the bank");
   const auto ran = run_kith(study);
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("different study"));

@@ -79,8 +79,6 @@ class Writing : public ::testing::Test {
         {"analyze --latex", {"analyze", run(), "--brief", "--latex"}, {}},
         {"report", {"report", run(), "-o"}, {}},
         {"curriculum", {"curriculum", "two-goals", "-o"}, {}},
-        {"export", {"export", "two-goals", "--to", "gym-json", "--mdp", "0", "-o"}, {}, false, yes},
-        {"export prism", {"export", "two-goals", "--to", "prism", "--mdp", "0", "-o"}, {}, false, yes},
     };
   }
   static Ran run_with(const Writer& writer, const std::string& place, bool replaces = false, const RunWith& with = {}) {
@@ -150,7 +148,6 @@ TEST_F(Writing, LosesNothingWhereTheDiskIsFull) {
 // that leads nowhere. And a place where nobody can write.
 TEST_F(Writing, LosesNothingThatIsSomebodyElses) {
   for (const auto& writer : writers()) {
-    if (writer.name == "export prism") continue;  // what is given is no file but what names begin with
     const Scratch scratch;
     fs::create_directories(scratch / "folder");
     for (const auto* file : {"folder/thesis.tex", "folder/study.toml", "folder/teams.csv", "file"}) {

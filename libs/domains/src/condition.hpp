@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/domains/domain.hpp"
 #include "kith/maps/family_map.hpp"
 
 namespace kith::detail {

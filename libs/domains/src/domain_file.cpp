@@ -1,6 +1,7 @@
 #include "kith/domains/domain_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "dynamics.hpp"
 #include "family.hpp"
 #include "kith/core/error.hpp"
+#include "kith/domains/other_models.hpp"
 #include "kith/toml/document.hpp"
 #include "kith/toml/file.hpp"
 #include "kith/toml/reader.hpp"
@@ -121,13 +123,12 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
   TomlReport& report = file.report();
   detail::ModelReading model = detail::read_model(file, files, model_report);
   const auto failed = [&] { return report.has_errors() || model_report.has_errors(); };
-  const bool knows_features = !model.dynamics.features.empty() && (model.weights || !failed());
-  if (!knows_features && failed()) {  // the rest speaks of features
+  if (failed()) {  // the rest speaks of features
     for (const char* key : {"reward", "prior", "words"}) file.know(key);
     file.finish();
     return std::nullopt;
   }
-  detail::Reward reward = detail::read_reward(file, model.dynamics, reward_of, model.weights);
+  detail::Reward reward = detail::read_reward(file, model.dynamics, reward_of);
   file.finish();
   if (failed()) return std::nullopt;
 
@@ -331,7 +332,17 @@ DomainReading parse_unweighed_domain(std::string_view text, const std::string& n
   return parse(text, name, {}, files, RewardOf::kNobody);
 }
 
+void refuse_models_of_others(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 6> kEndings{".json", ".tra", ".sta", ".lab", ".srew", ".trew"};
+  if (std::ranges::find(kEndings, path.extension().string()) == kEndings.end()) return;
+  throw Error{{Diagnostic{.id = "E0236",
+                          .message = "models of PRISM and Gymnasium are converted to a domain first",
+                          .file = path.string(),
+                          .hint = "python -m kith.convert " + path.string() + " -o DOMAIN.toml"}}};
+}
+
 DomainReading read_domain(const std::filesystem::path& path) {
+  refuse_models_of_others(path);
   const auto text = read_toml_text(path);
   if (!text) {
     throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string() + ": " + why_unreadable(path)};

@@ -47,7 +47,6 @@ class MemberBuilder {
 
   void check_states() {
     has_starts_ = std::any_of(raw_.states.begin(), raw_.states.end(), [](const RawState& s) { return s.start; });
-    const RawState* initial = nullptr;
     bool ends = false;
     for (const RawState& one : raw_.states) {
       ends = ends || one.terminal;
@@ -55,12 +54,6 @@ class MemberBuilder {
         report_.error("E0258", one.place, "terminal state '" + one.key + "' cannot be a start",
                       "a terminal state has no actions");
       }
-      if (!one.initial) continue;
-      if (initial != nullptr && !model_.initial_may_repeat) {
-        report_.error("E0259", one.place, "there is a second initial state; the first is '" + initial->key + "'",
-                      "mark only one state as initial; others can be starts");
-      }
-      initial = initial == nullptr ? &one : initial;
     }
     if (!ends) {
       report_.error("E0256", raw_.place, "there is no terminal state" + (raw_.name.empty() ? "" : in_mdp()),
@@ -72,7 +65,7 @@ class MemberBuilder {
   void collect_choices() {
     auto& all = raw_.transitions;
     std::stable_sort(all.begin(), all.end(), [](const RawTransition& a, const RawTransition& b) {
-      return std::tie(a.state, a.action, a.next) < std::tie(b.state, b.action, b.next);
+      return std::tie(a.state, a.action, a.next, a.features) < std::tie(b.state, b.action, b.next, b.features);
     });
     first_choice_.assign(raw_.states.size() + 1, 0);
     std::vector<bool> has_rows(raw_.states.size(), false);
@@ -96,7 +89,6 @@ class MemberBuilder {
     RawTransition* const outcomes = &raw_.transitions[choice.first];
     const RawState& from = state(outcomes[0].state);
     if (from.terminal) {
-      if (model_.terminals_may_have_rows) return note_after_end(outcomes, choice.count);
       report_.error("E0254", place(outcomes[0].at),
                     "state '" + from.key + "' is terminal, so nothing happens there any more",
                     "remove its transitions, or do not mark it as terminal");
@@ -125,19 +117,6 @@ class MemberBuilder {
     choices_.push_back(choice);
   }
 
-  void note_after_end(const RawTransition* outcomes, std::size_t count) {
-    const auto matters = [&](const RawTransition& one) {
-      const auto& row = model_.features.row(one.features);
-      return one.next != one.state || std::any_of(row.begin(), row.end(), [](double x) { return x != 0.0; });
-    };
-    if (noted_after_end_ || std::none_of(outcomes, outcomes + count, matters)) return;
-    noted_after_end_ = true;
-    report_.warning(
-        "W0210", place(outcomes[0].at),
-        "state '" + state(outcomes[0].state).key + "'" + in_mdp() + " ends an episode: what happens in it is left out",
-        "it is said for the first such state");
-  }
-
   bool check_outcome(const RawTransition* outcomes, std::size_t i) {
     const RawTransition& one = outcomes[i];
     if (!(one.probability > 0.0 && one.probability <= 1.0 + kSumSlack)) {
@@ -145,8 +124,7 @@ class MemberBuilder {
                     "leave out impossible outcomes");
       return false;
     }
-    const bool again = i > 0 && outcomes[i - 1].next == one.next &&
-                       (!model_.outcomes_may_repeat || outcomes[i - 1].features == one.features);
+    const bool again = i > 0 && outcomes[i - 1].next == one.next && outcomes[i - 1].features == one.features;
     if (!again) return true;
     report_.error("E0246", place(one.at),
                   "state '" + state(one.state).key + "', action '" + model_.actions.all()[one.action] +
@@ -342,7 +320,7 @@ class MemberBuilder {
                     "no other state" + in_mdp() + " leads to " + std::to_string(apart.size()) +
                         (apart.size() == 1 ? " state" : " states") + ", so nothing is asked or shown from there: " +
                         named + (apart.size() > kMostNamed ? ", ..." : ""),
-                    "mark where the robot can begin: start (a column or label), starts (JSON), or initial");
+                    "mark where the robot can begin: a column start or initial");
   }
 
   // Numbers the states: live ones first, then terminal ones, each in the order of the file.
@@ -425,7 +403,6 @@ class MemberBuilder {
   std::vector<bool> safe_;  // per choice
   std::vector<bool> kept_;
   std::vector<bool> is_start_;
-  bool noted_after_end_ = false;
 };
 
 }  // namespace

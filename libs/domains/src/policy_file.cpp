@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/models/json_tree.hpp"
 #include "kith/models/model_text.hpp"
 #include "kith/table/csv_reader.hpp"
 #include "kith/toml/reader.hpp"
@@ -17,10 +16,8 @@
 namespace kith {
 namespace {
 
-using detail::JsonTree;
 using detail::ModelPlace;
 using detail::ModelReport;
-using Kind = JsonTree::Kind;
 
 constexpr double kSumSlack = 1e-6;  // planners print probabilities with few digits
 
@@ -39,19 +36,16 @@ class PolicyReader {
     const auto first = file_.text.find_first_not_of(" \t\r\n");
     const bool is_json = first != std::string::npos && (file_.text[first] == '[' || file_.text[first] == '{');
     if (is_json) {
-      read_json();
-    } else {
-      read_table();
+      return report_.error("E0286", {&file_}, "a policy is a table, not JSON",
+                           "python -m kith.convert " + file_.shown + " -o POLICY.csv");
     }
-    if (report_.has_errors()) return;
-    finish();
+    read_table();
+    if (!report_.has_errors()) finish();
   }
 
   ObservedPolicy take() { return std::move(policy_); }
 
  private:
-  // --- names ---
-
   std::optional<MdpIndex> world_called(const std::string& name, const ModelPlace& place) {
     const auto found = domain_.find_world(name);
     if (!found) {
@@ -99,8 +93,6 @@ class PolicyReader {
     return std::nullopt;
   }
 
-  // --- what was seen ---
-
   void add(MdpIndex m, StateIndex s, ActionIndex action, double weight) {
     policy_.is_seen[m.value()][s.value()] = true;
     totals_[m.value()][s.value()] += weight;
@@ -144,8 +136,6 @@ class PolicyReader {
     return false;
   }
 
-  // --- tables ---
-
   void read_table() {
     std::vector<Column> header;
     try {
@@ -178,77 +168,6 @@ class PolicyReader {
     if (has_probabilities_ && !check_probability(weight, place(2))) return;
     if (!m || !action) return;
     if (const auto s = state_called(*m, text(0), place(0))) add(*m, *s, *action, weight);
-  }
-
-  // --- JSON ---
-
-  void malformed(const ModelPlace& place, const std::string& message) {
-    report_.error(
-        "E0286", place, message,
-        "write a list with the number of an action for every state, [0, 2, 1], or with the probabilities of all "
-        "actions, [[1, 0], [0.5, 0.5]]; for several worlds an object, {\"0\": [...], \"1\": [...]}");
-  }
-
-  void read_json() {
-    const auto tree = JsonTree::parse(file_, report_);
-    if (!tree) return;
-    const auto root = tree->root();
-    if (root.is(Kind::kList)) {
-      if (domain_.num_mdps() == 1) return read_list(MdpIndex{0}, root);
-      return malformed(root.place(),
-                       "the domain has " + std::to_string(domain_.num_mdps()) + " worlds, but there is one list");
-    }
-    root.for_each_member([&](const JsonTree::Value& key, const JsonTree::Value& value) {
-      const auto m = world_called(key.string(), key.place());
-      if (!m) return;
-      if (!value.is(Kind::kList))
-        return malformed(value.place(), "expected a list, not " + std::string{value.kind_name()});
-      read_list(*m, value);
-    });
-  }
-
-  void read_list(MdpIndex m, const JsonTree::Value& list) {
-    std::size_t number = 0;
-    list.for_each_element([&](const JsonTree::Value& one) {
-      const auto key = std::to_string(number++);
-      if (report_.is_full() || one.is(Kind::kNull)) return;
-      const auto s = state_called(m, key, one.place());
-      if (one.is(Kind::kList)) return read_probabilities(m, s, one);
-      const auto action = one.is(Kind::kNumber) ? action_number(one) : std::nullopt;
-      if (!one.is(Kind::kNumber))
-        malformed(one.place(), "expected a number or a list, not " + std::string{one.kind_name()});
-      if (s && action) add(m, *s, *action, 1.0);
-    });
-  }
-
-  std::optional<ActionIndex> action_number(const JsonTree::Value& value) {
-    const double number = value.number();
-    const auto count = domain_.action_names().size();
-    if (number >= 0.0 && number < static_cast<double>(count) && number == std::floor(number))
-      return ActionIndex{static_cast<std::size_t>(number)};
-    report_.error("E0283", value.place(), "there is no such action",
-                  "actions have numbers from 0 to " + std::to_string(count - 1));
-    return std::nullopt;
-  }
-
-  void read_probabilities(MdpIndex m, std::optional<StateIndex> s, const JsonTree::Value& list) {
-    const auto count = domain_.action_names().size();
-    if (list.size() != count) {
-      return malformed(list.place(), "there are " + std::to_string(list.size()) + " probabilities, but " +
-                                         std::to_string(count) + " actions");
-    }
-    has_probabilities_ = true;
-    std::size_t a = 0;
-    double sum = 0.0;
-    list.for_each_element([&](const JsonTree::Value& one) {
-      const ActionIndex action{a++};
-      if (!one.is(Kind::kNumber)) return malformed(one.place(), "a probability must be a number");
-      if (!check_probability(one.number(), one.place())) return;
-      sum += one.number();
-      if (s && one.number() > 0.0) add(m, *s, action, one.number());
-    });
-    if (!report_.has_errors() && std::abs(sum - 1.0) > kSumSlack)
-      report_.error("E0284", list.place(), "these probabilities sum to " + std::to_string(sum) + ", not 1", "");
   }
 
   const detail::ModelText& file_;

@@ -16,8 +16,6 @@ namespace kith::detail {
 struct ModelReading {
   Dynamics dynamics;  // discount, max_steps and features; no actions, atoms or rules
   RawModel model;
-  std::optional<std::vector<double>> weights;  // where the rewards of the model are the weights
-  TomlPlace place;                             // of [model]
   std::optional<DrawingPlan> drawing;
 };
 

@@ -16,8 +16,8 @@ bool has_regions(std::size_t num_features) { return num_features >= 2 && num_fea
 
 class RewardReader {
  public:
-  RewardReader(TomlReader& file, const Dynamics& dynamics, const std::optional<std::vector<double>>& given)
-      : file_{file}, report_{file.report()}, dynamics_{dynamics}, given_{given}, names_{dynamics.feature_names()} {}
+  RewardReader(TomlReader& file, const Dynamics& dynamics)
+      : file_{file}, report_{file.report()}, dynamics_{dynamics}, names_{dynamics.feature_names()} {}
 
   Reward read(RewardOf reward_of) {
     if (reward_of == RewardOf::kFile) {
@@ -32,12 +32,9 @@ class RewardReader {
 
  private:
   void read_weights() {
-    if (given_) take_given();
-    auto table = file_.table("reward", given_ ? Presence::kOptional : Presence::kRequired);
+    auto table = file_.table("reward", Presence::kRequired);
     if (!table) return;
-    if (given_) {
-      refuse_weights(*table);
-    } else if (const TomlValue* weights = table->value("weights", Presence::kRequired)) {
+    if (const TomlValue* weights = table->value("weights", Presence::kRequired)) {
       reward_.weights_place = weights->place();
       if (read_table(*weights, "'weights'", report_) != nullptr) take_weights(*weights);
     }
@@ -51,25 +48,6 @@ class RewardReader {
   void leave_open() {
     file_.know("reward");
     reward_.weights_place = dynamics_.features.empty() ? file_.place() : dynamics_.features.front().place;
-    if (!given_) return;
-    report_.error("E0263", reward_.weights_place,
-                  "the rewards of this model say what its features are worth, so there is nothing to infer",
-                  "give every outcome a vector of features in place of its reward, and declare each as [[feature]]");
-  }
-
-  void take_given() {
-    reward_.weights_place = dynamics_.features.front().place;
-    if (const auto integer = exact_direction(*given_)) return set_weights(*given_, *integer);
-    report_.error("E0315", reward_.weights_place, "the rewards need more digits than exact arithmetic takes",
-                  "at a common denominator every reward must stay below 2^31: round them");
-  }
-
-  void refuse_weights(TomlReader& table) {
-    table.know("weights");
-    if (const TomlValue* weights = table.content().find("weights")) {
-      report_.error("E0263", weights->place(), "the weights follow from the rewards of the model",
-                    "leave them out, or write feature vectors in place of rewards");
-    }
   }
 
   void take_weights(const TomlValue& value) {
@@ -264,7 +242,6 @@ class RewardReader {
   TomlReader& file_;
   TomlReport& report_;
   const Dynamics& dynamics_;
-  const std::optional<std::vector<double>>& given_;
   std::vector<std::string> names_;
   Reward reward_;
   bool prior_clashes_ = false;
@@ -272,9 +249,8 @@ class RewardReader {
 
 }  // namespace
 
-Reward read_reward(TomlReader& file, const Dynamics& dynamics, RewardOf reward_of,
-                   const std::optional<std::vector<double>>& given) {
-  return RewardReader{file, dynamics, given}.read(reward_of);
+Reward read_reward(TomlReader& file, const Dynamics& dynamics, RewardOf reward_of) {
+  return RewardReader{file, dynamics}.read(reward_of);
 }
 
 }  // namespace kith::detail

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,6 @@ struct Reward {
   std::vector<Wording> words;    // per feature
 };
 
-// `given`: the weights, shape [d], where they follow from a model and the file has none.
-[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics, RewardOf reward_of,
-                                 const std::optional<std::vector<double>>& given = std::nullopt);
+[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics, RewardOf reward_of);
 
 }  // namespace kith::detail

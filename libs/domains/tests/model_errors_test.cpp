@@ -5,6 +5,8 @@
 #include <set>
 
 #include "error_ids.hpp"
+#include "kith/core/error.hpp"
+#include "kith/domains/other_models.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "models_under_test.hpp"
 
@@ -40,8 +42,6 @@ const std::string kNine =
 std::vector<ModelCase> model_cases() {
   const auto* csv = &kIceCsv;
   const auto* drawn = &kIceDrawn;
-  const auto* prism = &kIcePrism;
-  const auto* gym = &kIceGym;
   const std::string toml = "domain.toml";
   const std::string states = "states.csv";
   const std::string rows = "transitions.csv";
@@ -49,12 +49,8 @@ std::vector<ModelCase> model_cases() {
       // the domain file
       {"map_and_model", csv, toml, "[model]", "[map]\nrows = [\"SG\"]\n[model]", "E0230 domain.toml 7:2", "not both"},
       {"feature_like_a_column", csv, toml, "\"slip\"", "\"next\"", "E0231 domain.toml 10:8", "cannot be called"},
-      {"no_mdp", prism, toml, "[[model.mdp]]\ntransitions", "mdp = []\n[more]\ntransitions", "E0231 domain.toml 7:7"},
-      {"mdp_not_in_a_table", gym, toml, "[[model.mdp]]\nfile", "file", "E0109 domain.toml 5:1",
-       "each MDP needs a table of its own", "write [[model.mdp]] below [model], and in it file = \"ice.json\""},
-      {"mdp_twice", gym, toml, "[[model.mdp]]",
-       "[[model.mdp]]\nname = \"a\"\nfile = \"ice.json\"\n[[model.mdp]]\nname = \"a\"", "E0231 domain.toml 11:8",
-       "twice", "line 7"},
+      {"prism", csv, toml, "\"csv\"", "\"prism\"", "E0235 domain.toml 6:10", "converted to tables",
+       "python -m kith.convert domain.toml"},
       {"file_above", csv, toml, "\"states.csv\"", "\"../states.csv\"", "E0232 domain.toml 7:10",
        "cannot be a file of a model", "relative to the domain file"},
       {"file_elsewhere", csv, toml, "\"states.csv\"", "\"/etc/states.csv\"", "E0232 domain.toml 7:10"},
@@ -73,8 +69,6 @@ std::vector<ModelCase> model_cases() {
        "E0301 domain.toml 1:1"},
       {"nine_features", csv, toml, "[reward]", kNine, "E0301 domain.toml 25:1", "not 9"},
       {"weight_missing", csv, toml, "slip = -2, ", "", "E0311 domain.toml 14:11"},
-      {"reward_beside_vectors", csv, toml, "name = \"slip\"", "name = \"slip\"\nreward = -2", "E0264 domain.toml 10:8",
-       "feature 'slip' has a reward", "[reward]"},
       {"action_twice", csv, toml, "discount = 1.0", "actions = [\"go\", \"creep\", \"go\"]", "E0222 domain.toml 4:27"},
       // tables
       {"state_column_missing", csv, states, "state,name", "stat,name", "E0502 states.csv 1:1", "\"state\" is missing"},
@@ -143,75 +137,6 @@ std::vector<ModelCase> model_cases() {
       // optimum
       {"for_ever", csv, rows, "bank,creep,bank,1,0,1\n", "ice,pace,bank,0.5,-9,1\nice,pace,ice,0.5,-9,1\n",
        "E0323 domain.toml 14:11", "collect reward for ever", "discount", true},
-      // PRISM
-      {"prism_header", prism, "ice.tra", "3 4 6", "3 6", "E0236 ice.tra 1:1", "as in '6 10 16'"},
-      {"prism_line", prism, "ice.tra", "1 1 1 0.5 creep", "1 1 0.5", "E0236 ice.tra 5:1",
-       "state, choice, next state, probability"},
-      {"prism_probability", prism, "ice.tra", "1/4", "1/0", "E0236 ice.tra 3:7", "a probability"},
-      {"prism_count", prism, "ice.tra", "3 4 6", "3 4 7", "E0237 ice.tra 1:1",
-       "declares 7 transitions, but there are 6"},
-      {"prism_state", prism, "ice.tra", "0 0 1 1 go", "0 0 3 1 go", "E0240 ice.tra 2:5", "no state 3", "0 to 2"},
-      {"prism_two_choices", prism, "ice.tra", "0.5 creep", "0.5 go", "E0238 ice.tra 5:11", "do not match"},
-      {"prism_variables", prism, "ice.sta", "1:(1)", "1:(1,2)", "E0236 ice.sta 3:1", "1 values"},
-      {"prism_state_missing", prism, "ice.sta", "1:(1)\n", "", "E0237 ice.sta 4:1", "state 1 is missing"},
-      {"prism_no_states_file", prism, toml, "[[feature]]",
-       "[[model.mdp]]\nname = \"b\"\ntransitions = \"ice.tra\"\nlabels = \"ice.lab\"\nrewards = { slip = [], step = [] "
-       "}\n[[feature]]",
-       "E0109 domain.toml 7:1"},
-      {"prism_label", prism, toml, "\"goal\"", "\"done\"", "E0251 ice.lab 2:1", "no label 'done'",
-       "known: init, deadlock, goal, start"},
-      {"prism_rewards_elsewhere", prism, "ice.slip.trew", "1 0 0 1", "1 1 0 1", "E0252 ice.slip.trew 4:1",
-       "no such transition in ice.tra"},
-      {"prism_rewards_of_another", prism, "ice.step.srew", "3 2", "4 2", "E0237 ice.step.srew 3:1", "it has 3 states"},
-      {"prism_feature_unknown", prism, toml, "{ slip =", "{ slap =", "E0253 domain.toml 11:11", "no rewards"},
-      {"prism_reward_of_a_state_twice", prism, "ice.step.srew", "1 1\n", "1 1\n1 2\n", "E0252 ice.step.srew 6:1",
-       "the reward of this state is given twice"},
-      {"prism_reward_of_a_transition_twice", prism, "ice.slip.trew", "1 0 0 1\n", "1 0 0 1\n1 00 0 2\n",
-       "E0252 ice.slip.trew 5:1", "the reward of this transition is given twice"},
-      {"prism_label_twice", prism, "ice.lab", "3=\"start\"", "2=\"start\"", "E0251 ice.lab 2:32",
-       "label 2 is named twice"},
-      {"prism_labels_of_a_state_twice", prism, "ice.lab", "2: 2\n", "01: 2\n", "E0241 ice.lab 5:1",
-       "state 1 is given twice"},
-      {"prism_interval", prism, "ice.tra", "1 0 0 1/4", "1 0 0 [0.2,0.3]", "E0236 ice.tra 3:7", "interval MDP"},
-      {"prism_rows", prism, "ice.tra", "0 0 1 1 go", "0 0 1:1 go", "E0236 ice.tra 2:5", "with rows", "-exportrows"},
-      {"prism_reward_of_an_end", prism, "ice.step.srew", "3 2\n", "3 3\n2 1\n", "W0210 ice.sta 4:1", "state 2"},
-      {"prism_way_out_of_an_end", prism, "ice.tra", "2 0 2 1", "2 0 0 1 go", "W0210 ice.tra 7:1", "left out"},
-      // Gymnasium
-      {"gym_goes_on", gym, "ice.json", "\"2\": {\"0\": [[1.0, 2, 0, true]]", "\"2\": {\"0\": [[1.0, 1, -1, false]]",
-       "W0210 ice.json 4:14", "state 2 ends episodes"},
-      {"gym_utf16", gym, "ice.json", "{\"P\"", "\xFF\xFE{\"P\"", "E0233 domain.toml 8:8", "UTF-16", "UTF-8"},
-      {"gym_broken", gym, "ice.json", "\"1\": {", "\"1\" {", "E0234 ice.json 3:6", "not valid JSON", "validator"},
-      {"gym_key_twice", gym, "ice.json", "\"2\": {", "\"1\": {", "E0234 ice.json 4:2", "twice"},
-      {"gym_deep", gym, "ice.json", "[[1.0, 1, -1.0, false]]", "[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]",
-       "E0234 ice.json 2:26", "deeper"},
-      {"gym_vector_short", gym, "ice.json", "[1.0, 1, -1.0, false]", "[1.0, 1, [-1.0], false]", "E0250 ice.json 2:23",
-       "there are 1 features, not 0"},
-      {"gym_outcome", gym, "ice.json", "[1.0, 1, -1.0, false]", "[1.0, 1, -1.0]", "E0235 ice.json 2:14",
-       "[probability, next state, reward, terminated]"},
-      {"gym_gap", gym, "ice.json", "\"2\": {", "\"3\": {", "E0237 ice.json 1:7", "one is number 3"},
-      {"gym_key", gym, "ice.json", "\"2\": {", "\"two\": {", "E0235 ice.json 4:2", "\"two\""},
-      {"gym_state_in_two_spellings", gym, "ice.json", "\"2\": {", "\"01\": {", "E0241 ice.json 4:2",
-       "state 1 is given twice, as \"1\" and as \"01\"", "without zeros in front"},
-      {"gym_action_in_two_spellings", gym, "ice.json", "\"1\": [[1.0, 0", "\"00\": [[1.0, 0", "E0238 ice.json 2:38",
-       "action 0 is given twice, as \"0\" and as \"00\""},
-      {"gym_action_names_alike", gym, "ice.json", "{\"P\": {", "{\"actions\": [\"go\", \"go\"], \"P\": {",
-       "E0222 ice.json 1:20", "action 'go' is listed twice"},
-      {"gym_next", gym, "ice.json", "[1.0, 1, -1.0", "[1.0, 7, -1.0", "E0240 ice.json 2:20", "no such state"},
-      {"gym_mixed", gym, "ice.json", "0, -3.0,", "0, [1, 1],", "E0235 ice.json 3:47", "an earlier one is a number"},
-      {"gym_sum", gym, "ice.json", "0.25, 0", "0.2, 0", "E0248 ice.json 3:38", "0.950000"},
-      {"gym_no_rewards", gym, "ice.json", R"(-1.0, false]], "1": [[1.0, 0, -1.0, false]]},
- "1": {"0": [[0.75, 2, -1.0, true], [0.25, 0, -3.0, false]], "1": [[0.5, 2, -1.0, true], [0.5, 1, -1.0, false]]})",
-       R"(0, false]]}, "1": {"0": [[1, 2, 0, true]]})", "E0261 domain.toml 5:1", "0 different rewards"},
-      {"gym_weights", gym, toml, "[model]", "[reward]\nweights = { a = 1 }\n[model]", "E0263 domain.toml 6:11",
-       "follow from the rewards"},
-      {"gym_reward_unknown", gym, toml, "file = \"ice.json\"",
-       "file = \"ice.json\"\n[[feature]]\nname = \"step\"\nreward = -5", "E0262 domain.toml 10:8",
-       "no transition has the reward", "-1.0"},
-      {"gym_reward_undeclared", gym, toml, "file = \"ice.json\"",
-       "file = \"ice.json\"\n[[feature]]\nname = \"step\"\nreward = -1", "E0262 domain.toml 10:8",
-       "no feature stands for reward -3.0"},
-      {"gym_action_without_name", gym, toml, "[\"go\", \"creep\"]", "[\"go\"]", "E0243 ice.json 2:44",
-       "no name for action 1"},
   };
 }
 
@@ -240,10 +165,8 @@ INSTANTIATE_TEST_SUITE_P(All, ModelError, ::testing::ValuesIn(model_cases()),
                          [](const auto& c) { return c.param.name; });
 
 TEST(ModelErrors, AreNoneInSoundModels) {
-  for (const auto* texts : {&kIceCsv, &kIcePrism, &kIceGym}) {
-    const auto diagnostics = read_model_texts(*texts).diagnostics;
-    EXPECT_FALSE(has_errors(diagnostics)) << to_text(diagnostics.front());
-  }
+  const auto diagnostics = read_model_texts(kIceCsv).diagnostics;
+  EXPECT_FALSE(has_errors(diagnostics)) << to_text(diagnostics.front());
 }
 
 TEST(ModelErrors, SayThatCountsAreTooLargeForTheWeights) {
@@ -281,22 +204,29 @@ TEST(ModelErrors, SayThatAStartCannotEnd) {
   EXPECT_TRUE(reading.diagnostics[1].infeasible);
 }
 
-TEST(ModelErrors, SayThatThereAreTwoInitialStates) {
+TEST(ModelErrors, AreNoneWhereARobotMayEnterInSeveralStates) {
   auto texts = kIceCsv;
   texts["states.csv"] = "state,terminal,initial\nbank,false,true\nice,false,true\nshore,true,false\n";
-  EXPECT_EQ(place_of(read_model_texts(texts).diagnostics.at(0)), "E0259 states.csv 3:1");
-
-  // PRISM has no other way to say that the robot may enter in several.
-  const auto several = sound_model(edited(kIcePrism, "ice.lab", "1: 3", "1: 0 3"));
-  EXPECT_EQ(several.initial_state(kFirst), StateIndex{0});
+  EXPECT_EQ(sound_model(texts).initial_state(kFirst), StateIndex{0});
+  EXPECT_EQ(sound_model(texts).starts(kFirst).size(), 2u);
 }
 
 TEST(ModelErrors, AreNoneForAByteOrderMark) {
-  EXPECT_TRUE(read_model_texts(edited(kIceGym, "ice.json", "{\"P\"", "\xEF\xBB\xBF{\"P\"")).domain.has_value());
-  EXPECT_TRUE(read_model_texts(edited(kIcePrism, "ice.tra", "3 4 6",
-                                      "\xEF\xBB\xBF"
-                                      "3 4 6"))
-                  .domain.has_value());
+  EXPECT_TRUE(read_model_texts(edited(kIceCsv, "states.csv", "state,", "\xEF\xBB\xBFstate,")).domain.has_value());
+}
+
+// The files themselves, whatever is in them.
+TEST(ModelErrors, SayWhatToDoWithFilesOfOtherPrograms) {
+  for (const auto* name : {"lake.json", "m.tra", "m.trew"}) {
+    try {
+      refuse_models_of_others(name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.diagnostics().front().id, "E0236");
+      EXPECT_THAT(error.diagnostics().front().hint, HasSubstr(std::string{"python -m kith.convert "} + name));
+    }
+  }
+  EXPECT_NO_THROW(refuse_models_of_others("lake.toml"));
 }
 
 // A table may have rows for states in which the robot never is, such as the cliff of Gymnasium's CliffWalking.
@@ -328,14 +258,6 @@ TEST(ModelErrors, NameStatesThatNoOtherStateLeadsTo) {
   EXPECT_EQ(sound_model(texts).starts(kFirst).size(), 1u);
 }
 
-TEST(ModelErrors, SayThatMdpsShareTheirVariables) {
-  auto texts = edited(kIcePrism, "domain.toml", "[[model.mdp]]", "[[model.mdp]]\nname = \"a\"");
-  texts = edited(texts, "domain.toml", "[[feature]]",
-                 "[[model.mdp]]\nname = \"b\"\ntransitions = \"ice.tra\"\nlabels = \"ice.lab\"\nrewards = { slip = [], "
-                 "step = [] }\n[[feature]]");
-  EXPECT_EQ(place_of(read_model_texts(texts).diagnostics.at(0)), "E0239 ice.tra 1:1");
-}
-
 TEST(ModelErrors, NameAnMdpWithoutStates) {
   auto texts = kIceCsv;
   texts["states.csv"] = "mdp,state,terminal\ndry,bank,false\ndry,shore,true\n";
@@ -362,12 +284,12 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
 // Those of this page of the documentation; the others are those of grids.
 bool is_of_models(const std::string& id) {
   return (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" || id == "E0323" ||
-         id == "E0324" || id == "W0204" || id == "W0205" || id == "W0210" || id == "W0211";
+         id == "E0324" || id == "W0204" || id == "W0205" || id == "W0211";
 }
 
 TEST(ModelErrorIds, AreAllTriggeredHere) {
-  std::set<std::string> triggered{"E0239", "E0242", "E0257", "E0259",
-                                  "E0260", "E0324", "W0204", "W0211"};  // above, and explicit_model_test
+  std::set<std::string> triggered{"E0236", "E0242", "E0257", "E0260",
+                                  "E0324", "W0204", "W0211"};  // above, and explicit_model_test
   for (const ModelCase& c : model_cases()) {
     for (const Diagnostic& d : read_model_texts(edited(*c.base, c.file, c.from, c.to)).diagnostics)
       triggered.insert(d.id);

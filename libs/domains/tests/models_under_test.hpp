@@ -67,53 +67,6 @@ shore,ashore,true,false,2,0,2,0
 )"},
                                   {"transitions.csv", kIceCsv.at("transitions.csv")}};
 
-inline const ModelTexts kIcePrism{
-    {"domain.toml", R"(schema = "kith.domain/1"
-id = "ice"
-[model]
-format = "prism"
-terminal = "goal"
-start = "start"
-[[model.mdp]]
-transitions = "ice.tra"
-states = "ice.sta"
-labels = "ice.lab"
-rewards = { slip = "ice.slip.trew", step = ["ice.step.srew"] }
-[[feature]]
-name = "slip"
-[[feature]]
-name = "step"
-[reward]
-weights = { slip = -2, step = -1 }
-)"},
-    {"ice.tra", R"(3 4 6
-0 0 1 1 go
-1 0 0 1/4 go
-1 0 2 3/4 go
-1 1 1 0.5 creep
-1 1 2 0.5 creep
-2 0 2 1
-)"},
-    {"ice.sta", "(x)\n0:(0)\n1:(1)\n2:(2)\n"},
-    {"ice.lab", "# Labels\n0=\"init\" 1=\"deadlock\" 2=\"goal\" 3=\"start\"\n0: 0 3\n1: 3\n2: 2\n"},
-    {"ice.slip.trew", "# Reward structure \"slip\"\n# Transition rewards\n3 4 1\n1 0 0 1\n"},
-    {"ice.step.srew", "# Reward structure \"step\"\n# State rewards\n3 2\n0 1\n1 1\n"}};
-
-inline const ModelTexts kIceGym{{"domain.toml", R"(schema = "kith.domain/1"
-id = "ice"
-[mdp]
-actions = ["go", "creep"]
-[model]
-format = "gym-json"
-[[model.mdp]]
-file = "ice.json"
-)"},
-                                {"ice.json", R"({"P": {
- "0": {"0": [[1.0, 1, -1.0, false]], "1": [[1.0, 0, -1.0, false]]},
- "1": {"0": [[0.75, 2, -1.0, true], [0.25, 0, -3.0, false]], "1": [[0.5, 2, -1.0, true], [0.5, 1, -1.0, false]]},
- "2": {"0": [[1.0, 2, 0, true]], "1": [[1.0, 2, 0, true]]}}}
-)"}};
-
 inline DomainReading read_model_texts(const ModelTexts& texts) {
   DomainFiles files;
   for (const auto& [name, text] : texts) {

@@ -26,7 +26,7 @@ std::string list_of(const std::vector<std::string_view>& endings) {
 }  // namespace
 
 const FileKind& model_files() {
-  static const FileKind kKind{"a file of a model", {".csv", ".json", ".tra", ".sta", ".lab", ".srew", ".trew"}};
+  static const FileKind kKind{"a file of a model", {".csv"}};
   return kKind;
 }
 

@@ -1,6 +1,5 @@
-// Explicit models. The first byte says which file of which layout the rest is, or that it is the domain file that names
-// the others; these are sound. A domain or errors, never both; what a domain is exported to is read again as a domain
-// with as many states, or those that can be reached from a start, and a domain can be asked about, taught and judged.
+// Explicit models and grids. The first byte says which file the rest is, or that it is the domain file that names
+// the others; these are sound. A domain or errors, never both; a domain can be asked about, taught and judged.
 
 #include <algorithm>
 #include <array>
@@ -9,7 +8,6 @@
 #include "../fuzzing.hpp"
 #include "../whole_robot.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/domains/export_model.hpp"
 
 using namespace kith;
 
@@ -19,12 +17,6 @@ const std::string kHead = "schema = \"kith.domain/1\"\nid = \"m\"\n[mdp]\ndiscou
 const std::string kTail =
     "[[feature]]\nname = \"f\"\n[[feature]]\nname = \"g\"\n[reward]\nweights = { f = -1, g = 2 }\n";
 const std::string kCsv = kHead + "format = \"csv\"\nstates = \"a.csv\"\ntransitions = \"b.csv\"\n" + kTail;
-const std::string kPrism = kHead +
-                           "format = \"prism\"\nterminal = \"goal\"\n[[model.mdp]]\ntransitions = \"m.tra\"\nstates = "
-                           "\"m.sta\"\nlabels = \"m.lab\"\nrewards = { f = \"m.srew\", g = \"m.trew\" }\n" +
-                           kTail;
-const std::string kGymVectors = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n" + kTail;
-const std::string kGymNumbers = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n";
 
 const std::string kGrid =
     "schema = \"kith.domain/1\"\nid = \"m\"\n[map]\noccupancy = \"m.yaml\"\nunknown = \"floor\"\n[map.legend]\n"
@@ -33,26 +25,15 @@ const std::string kGrid =
     "image = \"m.pgm\"\nlevels = 3\n[[feature]]\nname = \"f\"\nwhen = \"enter:r\"\ntimes = \"r\"\n[[feature]]\n"
     "name = \"g\"\nwhen = \"action\"\n[reward]\nweights = { f = -1, g = -2 }\n";
 
-constexpr const char* kSoundGym = R"([[[[0.5,1,-1,true],[0.5,1,-2,false]]],[[[1,0,3,false]]]])";
 constexpr const char* kDomainFile = "m.toml";
 
 struct Layout {
   const std::string* domain;  // null: it is what is fuzzed
   const char* fuzzed;         // the name of the file that the bytes are
 };
-const std::array<Layout, 12>& layouts() {
-  static const std::array<Layout, 12> kLayouts{{{&kCsv, "a.csv"},
-                                                {&kCsv, "b.csv"},
-                                                {&kPrism, "m.tra"},
-                                                {&kPrism, "m.sta"},
-                                                {&kPrism, "m.lab"},
-                                                {&kPrism, "m.srew"},
-                                                {&kPrism, "m.trew"},
-                                                {&kGymVectors, "m.json"},
-                                                {&kGymNumbers, "m.json"},
-                                                {nullptr, kDomainFile},
-                                                {&kGrid, "m.pgm"},
-                                                {&kGrid, "m.yaml"}}};
+const std::array<Layout, 5>& layouts() {
+  static const std::array<Layout, 5> kLayouts{
+      {{&kCsv, "a.csv"}, {&kCsv, "b.csv"}, {nullptr, kDomainFile}, {&kGrid, "m.pgm"}, {&kGrid, "m.yaml"}}};
   return kLayouts;
 }
 
@@ -65,7 +46,6 @@ Form form_of(std::string_view head) {
   const std::string_view name = layouts()[static_cast<unsigned char>(head.front()) % layouts().size()].fuzzed;
   if (name.ends_with(".toml")) return {fuzzing::mutate_toml, fuzzing::cross_toml};
   if (name.ends_with(".csv")) return {fuzzing::mutate_csv, fuzzing::cross_csv};
-  if (name.ends_with(".json")) return {fuzzing::mutate_json, fuzzing::cross_json};
   return {fuzzing::mutate_lines, fuzzing::cross_lines};
 }
 
@@ -75,50 +55,10 @@ DomainFiles files_with(const char* name, std::string_view text) {
       {name, std::string{text}},
       {"a.csv", "state,terminal,x\na,false,1\nb,false,2\nc,true,3\n"},
       {"b.csv", "state,action,next,probability,f,g\na,go,b,1,0,1\nb,go,c,0.5,1,0\nb,go,a,0.5,0,0\n"},
-      {"m.tra", "3 3 4\n0 0 1 1 go\n1 0 0 0.5 go\n1 0 2 0.5 go\n2 0 2 1\n"},
-      {"m.sta", "(x)\n0:(1)\n1:(2)\n2:(3)\n"},
-      {"m.lab", "0=\"init\" 1=\"goal\"\n0: 0\n2: 1\n"},
-      {"m.json", kSoundGym},
       {"m.yaml",
        "image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.9\nfree_thresh: 0.2\n"},
-      {"m.pgm", "P2\n3 2\n3\n3 1 3\n0 3 2\n"},
-      {"m.srew", "3 1\n0 1\n"},
-      {"m.trew", "3 3 1\n1 0 2 1\n"}};
+      {"m.pgm", "P2\n3 2\n3\n3 1 3\n0 3 2\n"}};
   return files;
-}
-
-std::size_t num_reached(const Domain& domain, MdpIndex m) {
-  const auto& mdp = domain.mdp(m);
-  auto queue = domain.starts(m);
-  std::vector<bool> is_reached(mdp.num_states(), false);
-  for (const auto s : queue) is_reached[s.value()] = true;
-  while (!queue.empty()) {
-    const auto from = queue.back();
-    queue.pop_back();
-    for (const auto& choice : mdp.choices(from)) {
-      for (const auto& outcome : mdp.outcomes(choice)) {
-        if (mdp.is_terminal(outcome.next) || is_reached[outcome.next.value()]) continue;
-        is_reached[outcome.next.value()] = true;
-        queue.push_back(outcome.next);
-      }
-    }
-  }
-  return static_cast<std::size_t>(std::count(is_reached.begin(), is_reached.end(), true));
-}
-
-void export_and_read(const Domain& domain, ModelFormat format, const std::string& name) {
-  auto exported = export_mdp(domain, MdpIndex{0}, format, name);
-  DomainFiles files;
-  std::string text;
-  for (auto& file : exported) {
-    if (file.name.ends_with(".toml")) text = file.text;
-    files.known.push_back({file.name, file.text});
-  }
-  const auto again = parse_domain(text, "again.toml", {}, files);
-  fuzzing::require(again.domain.has_value(), "an export is read again");
-  const auto num_states = again.domain->mdp(MdpIndex{0}).num_states();
-  fuzzing::require(num_states == domain.mdp(MdpIndex{0}).num_states() || num_states == num_reached(domain, MdpIndex{0}),
-                   "as large as it was");
 }
 
 }  // namespace
@@ -146,8 +86,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzzing::require_good(reading.diagnostics, text, layout.fuzzed);
   fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(reading.diagnostics));
   if (!reading.domain) return 0;
-  export_and_read(*reading.domain, ModelFormat::kGymJson, "e.json");
-  export_and_read(*reading.domain, ModelFormat::kPrism, "e");
   fuzzing::WholeRobot::use(*reading.domain);
   return 0;
 }

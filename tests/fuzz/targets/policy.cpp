@@ -1,4 +1,4 @@
-// Policies, as tables and as JSON. The first byte says of which domain. A policy or errors, never both; what is read
+// Policies. The first byte says of which domain. A policy or errors, never both; what is read
 // has a probability for every choice, written down again it reads as the same, and weights that are inferred from it
 // make a domain file that is read.
 
@@ -32,23 +32,19 @@ Robot robot(std::string text, const DomainFiles& files) {
 const Robot& robot_of(unsigned char first) {
   static const Robot kModel = robot(
       "schema = \"kith.domain/1\"\nid = \"m\"\n[mdp]\ndiscount = 0.5\nactions = [\"on\", \"back\"]\n[model]\n"
-      "format = \"gym-json\"\n[[model.mdp]]\nfile = \"p.json\"\n[[feature]]\nname = \"mud\"\n[[feature]]\n"
+      "format = \"csv\"\nstates = \"s.csv\"\ntransitions = \"t.csv\"\n[[feature]]\nname = \"mud\"\n[[feature]]\n"
       "name = \"step\"\n[prior]\nhalfspaces = [ { step = -1 } ]\n",
       {{},
-       {{"p.json",
-         R"([[[[1, 1, [0, 1], false]], [[1, 0, [0, 1], false]]], [[[0.5, 2, [1, 1], false], [0.5, 0, [0, 1], false]],)"
-         R"( [[1, 0, [0, 1], false]]], [[[1, 3, [0, 1], true]], [[1, 1, [1, 1], false]]], [[], []]])"}}});
+       {{"s.csv", "state,terminal\n0,false\n1,false\n2,false\n3,true\n"},
+        {"t.csv",
+         "state,action,next,probability,mud,step\n0,on,1,1,0,1\n0,back,0,1,0,1\n1,on,2,0.5,1,1\n1,on,0,0.5,0,1\n"
+         "1,back,0,1,0,1\n2,on,3,1,0,1\n2,back,1,1,1,1\n"}}});
   static const Robot kMap = robot(
       "schema = \"kith.domain/1\"\nid = \"m\"\n[map]\nrows = [\"S.rG\"]\n[map.legend]\n\".\" = \"floor\"\n"
       "r = { terrain = \"rubble\", optional = true }\nS = { start = true }\nG = { goal = true }\n[[feature]]\n"
       "name = \"rubble\"\nwhen = \"leave:rubble\"\n[[feature]]\nname = \"step\"\nwhen = \"action\"\n",
       {});
   return first % 2 == 0 ? kModel : kMap;
-}
-
-bool is_json(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && (text[first] == '[' || text[first] == '{');
 }
 
 // The table of a policy, and whether that says all: some of what the robot does may be no choice of the model.
@@ -106,13 +102,13 @@ std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"policy"};
   if (input.empty() || dice.one_in(20)) return mutate_bytes(input, dice);
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + (is_json(body) ? mutate_json : mutate_csv)(body, kVocabulary, dice);
+  return std::string{head} + mutate_csv(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   if (input.empty()) return std::string{other};
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + (is_json(body) ? cross_json : cross_csv)(body, behind_bytes(other, 1).body, dice);
+  return std::string{head} + cross_csv(body, behind_bytes(other, 1).body, dice);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

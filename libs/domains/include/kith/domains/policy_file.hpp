@@ -25,17 +25,11 @@ struct PolicyReading {
   std::vector<Diagnostic> diagnostics;
 };
 
-/// Reads a policy. A text that begins with '[' or '{' is JSON, anything else a table (CSV).
-///
-/// The table has a row for every state and action: `state` (a key or the name of a state, see Domain::state_key()) and
-/// `action` (its name, or its number from 0), where there are several MDPs `world` (number or name), and optionally
-/// `probability`. Without probabilities every row is an observation, and each of a state's rows counts the same: a
-/// table of one row for each state is a deterministic policy, and the steps of recorded paths are one as well. Other
-/// columns are ignored.
-///
-/// JSON is a list with an entry for each state, in the order of the model's keys 0, 1, 2, ...: the number of an action,
-/// or a list with the probability of every action; null where nothing is known. For several MDPs an object of such
-/// lists by number or name.
+/// Reads a policy, a table (CSV) with a row for every state and action: `state` (a key or the name of a state, see
+/// Domain::state_key()) and `action` (its name, or its number from 0), where there are several MDPs `world` (number or
+/// name), and optionally `probability`. Without probabilities every row is an observation, and each of a state's rows
+/// counts the same: a table of one row for each state is a deterministic policy, and the steps of recorded paths are
+/// one as well. Other columns are ignored.
 ///
 /// Terminal states and those that the domain leaves out are passed over. All errors are reported at once (at most 20).
 /// @param name  how messages call the file.

@@ -6,8 +6,7 @@
 #include "kith/models/model_text.hpp"
 #include "kith/models/raw_model.hpp"
 
-// One reader per layout of model files; docs/explicit-models.md says what they look like. Each reports what is wrong
-// and adds the rest to the model.
+// The tables of docs/explicit-models.md: what is wrong is reported, the rest added to the model.
 namespace kith::detail {
 
 // A model larger than that is not read.
@@ -21,33 +20,6 @@ inline constexpr std::size_t kMaxVariables = 64;
 // kith's own tables. `features` are columns of the transitions.
 void read_csv_model(const ModelText& states, const ModelText& transitions, const std::vector<std::string>& features,
                     RawModel& model, ModelReport& report);
-
-// One MDP in PRISM's files.
-struct PrismFiles {
-  const ModelText* transitions = nullptr;                // .tra
-  const ModelText* states = nullptr;                     // .sta, or none
-  const ModelText* labels = nullptr;                     // .lab, or none
-  std::vector<std::vector<const ModelText*>> rewards{};  // per feature, .srew and .trew
-  std::string terminal{};                                // the label of terminal states; empty: those that never change
-  std::string start{};                                   // the label of start states; empty: all others
-  std::string mdp{};                                     // what the MDP is called
-};
-void read_prism_mdp(const PrismFiles& files, RawModel& model, ModelReport& report);
-
-// What stands for features in Gymnasium's P[s][a].
-enum class GymRewards {
-  kVectors,  // a vector per outcome: features
-  kNumbers,  // a number per outcome: the feature rows of the model hold just that
-};
-
-// One MDP in Gymnasium's layout. Nothing after reporting what is wrong.
-// `initial`: the state in which a robot enters, if the domain file says it.
-[[nodiscard]] std::optional<GymRewards> read_gym_mdp(const ModelText& file, const std::string& name,
-                                                     std::optional<std::uint32_t> initial,
-                                                     const std::vector<std::string>& features, RawModel& model,
-                                                     ModelReport& report);
-
-// --- what the readers share ---
 
 // Whether one more transition may come; reports once if not.
 [[nodiscard]] bool has_room(const RawModel& model, const ModelPlace& place, ModelReport& report);

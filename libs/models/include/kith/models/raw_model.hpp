@@ -83,7 +83,7 @@ struct RawMdp {
   std::vector<RawTransition> transitions;
 };
 
-// What the files of a model say, whatever their format, before it is checked.
+// What the files of a model say, before it is checked.
 struct RawModel {
   const ModelText* last_file = nullptr;  // that was opened for it
   std::vector<std::string> variables;    // integer variables that states have
@@ -91,10 +91,7 @@ struct RawModel {
   bool actions_are_declared = false;  // by the domain file: no others may come
   FeatureRows features;
   std::vector<RawMdp> mdps;
-  std::size_t num_transitions = 0;       // of all of them
-  bool terminals_may_have_rows = false;  // as in formats in which every state has some
-  bool initial_may_repeat = false;       // the first one is where a robot enters
-  bool outcomes_may_repeat = false;      // the same next state with different features
+  std::size_t num_transitions = 0;  // of all of them
 
   void add(RawMdp& mdp, const RawTransition& transition) {
     mdp.transitions.push_back(transition);
