@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "kith/files/folder_lock.hpp"
+#include "kith/files/sqlite.hpp"
 #include "kith/store/event_file.hpp"
 #include "run_kith.hpp"
 #include "small_session.hpp"
@@ -114,10 +115,15 @@ TEST_F(SessionCommand, ErasesOnlyWhenTold) {
 }
 
 TEST_F(SessionCommand, RecoversADamagedSession) {
+  const auto path = std::filesystem::path{folder()} / kEventFile;
   {
-    std::fstream file{std::filesystem::path{folder()} / kEventFile, std::ios::in | std::ios::out | std::ios::binary};
-    file.seekp(0);
-    file << "not a database";
+    Database database{path, Database::Mode::kWrite};
+    database.empty_log();
+    auto page = database.prepare("SELECT rootpage FROM sqlite_schema WHERE name = 'sqlite_autoindex_event_1'");
+    ASSERT_TRUE(page.step());
+    std::fstream file{path, std::ios::in | std::ios::out | std::ios::binary};
+    file.seekp((page.integer(0) - 1) * kSqlitePageSize);
+    file << std::string(kSqlitePageSize, '\xA5');
   }
   const auto list = run_kith({"session", "list", folder()});
   EXPECT_EQ(list.code, 7);
@@ -127,6 +133,10 @@ TEST_F(SessionCommand, RecoversADamagedSession) {
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("2 events"));
   EXPECT_EQ(run_kith({"session", "replay", scratch_ / "saved"}).code, 0);
+  std::ofstream{path} << "this is no database any more";
+  const auto nothing = run_kith({"session", "salvage", folder(), "-o", scratch_ / "other"});
+  EXPECT_EQ(nothing.code, 7);
+  EXPECT_THAT(nothing.err, AllOf(HasSubstr("E1619"), HasSubstr("sqlite3 session.sqlite .recover")));
 }
 
 TEST_F(SessionCommand, RefusesFoldersThatHoldNoSession) {

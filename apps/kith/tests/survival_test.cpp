@@ -189,7 +189,7 @@ TEST(Survival, OfADamagedJournalNamesItAndTheWayOut) {
   std::ofstream{folder + "/study.sqlite"} << "this is no database";
   const auto ran = run_kith(small_study(folder));
   EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("study.sqlite"), HasSubstr("--resume never")));
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("study.sqlite .recover"), HasSubstr("--resume never")));
   EXPECT_EQ(tables_in(folder), expected());
   auto anew = small_study(folder);
   anew.insert(anew.end(), {"--resume", "never"});

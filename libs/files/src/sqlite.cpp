@@ -218,4 +218,37 @@ std::string_view Statement::blob(int column) const {
   return bytes == nullptr ? std::string_view{} : std::string_view{static_cast<const char*>(bytes), size};
 }
 
+std::map<std::string, std::string> read_meta(Database& database) {
+  std::map<std::string, std::string> meta;
+  auto rows = database.prepare("SELECT key, value FROM meta");
+  while (rows.step()) meta.emplace(rows.text(0), rows.text(1));
+  return meta;
+}
+
+bool is_sound(Database& database, SqliteCheck check) {
+  try {
+    auto found = database.prepare(check == SqliteCheck::kPages ? "PRAGMA quick_check(1)" : "PRAGMA integrity_check(1)");
+    return found.step() && found.text(0) == "ok";
+  } catch (const SqliteError& error) {
+    if (error.damaged()) return false;
+    throw;
+  }
+}
+
+void read_remaining_rows(const std::filesystem::path& path, const std::string& select,
+                         const std::function<void(const Statement& row)>& visit) {
+  for (const auto mode : {Database::Mode::kRead, Database::Mode::kAlone}) {
+    for (const auto* order : {" ORDER BY rowid", " ORDER BY rowid DESC"}) {
+      try {
+        Database database{path, mode};
+        database.execute("PRAGMA writable_schema = ON");  // reads on where another table's description is damaged
+        auto rows = database.prepare(select + order);
+        while (rows.step()) visit(rows);
+      } catch (const SqliteError& error) {
+        if (!error.damaged()) throw;
+      }
+    }
+  }
+}
+
 }  // namespace kith

@@ -22,16 +22,6 @@ constexpr char kFailure = 0;
 
 double now() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
-bool is_sound(Database& database) {
-  try {
-    auto check = database.prepare("PRAGMA quick_check(1)");
-    return check.step() && check.text(0) == "ok";
-  } catch (const SqliteError& error) {
-    if (error.damaged()) return false;
-    throw;
-  }
-}
-
 }  // namespace
 
 std::string JournalIdentity::key() const {
@@ -83,7 +73,7 @@ struct Journal::State {
     done.assign(identity.teams, false);
     num_done = 0;
     damaged.clear();
-    if (!is_sound(database)) return false;
+    if (!is_sound(database, SqliteCheck::kPages)) return false;
     try {
       auto rows = database.prepare("SELECT team, record FROM units ORDER BY team");
       while (rows.step()) {

@@ -8,10 +8,10 @@
 #include <charconv>
 #include <system_error>
 
-#include "journal_salvage.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/sha256.hpp"
+#include "kith/runs/team_codec.hpp"
 #include "kith/study/study.hpp"
 
 namespace kith {
@@ -68,12 +68,6 @@ std::vector<std::pair<std::string, std::string>> meta_of(const JournalIdentity& 
   return meta;
 }
 
-std::string meta_value(Database& database, const std::string& key) {
-  auto statement = database.prepare("SELECT value FROM meta WHERE key = ?");
-  statement.bind_text(1, key);
-  return statement.step() ? std::string{statement.text(0)} : std::string{};
-}
-
 // Zero for what is no number.
 std::size_t number_of(const std::string& text) {
   std::size_t value = 0;
@@ -125,7 +119,7 @@ void fill_file(const fs::path& path, const JournalIdentity& identity, const std:
   for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) remove_file(beside(path, suffix));
   {
     Database database{path, Database::Mode::kMake};
-    database.execute("PRAGMA page_size = " + std::to_string(kJournalPageSize) +
+    database.execute("PRAGMA page_size = " + std::to_string(kSqlitePageSize) +
                      "; PRAGMA synchronous = OFF; PRAGMA journal_mode = WAL; BEGIN");
     database.execute(kTables);
     auto insert = database.prepare("INSERT INTO meta VALUES (?, ?)");
@@ -196,17 +190,21 @@ void make_journal_file(const fs::path& path, const JournalIdentity& identity) {
 }
 
 std::optional<JournalIdentity> read_identity(Database& database) try {
-  JournalIdentity identity{
-      {meta_value(database, "study"), meta_value(database, "domain"), files_from(meta_value(database, "files"))},
-      meta_value(database, "program"),
-      number_of(meta_value(database, "teams")),
-      {number_of(meta_value(database, "shard")), number_of(meta_value(database, "shards"))},
-      meta_value(database, "arithmetic")};
+  const auto meta = read_meta(database);
+  const auto value_of = [&](const std::string& key) {
+    const auto at = meta.find(key);
+    return at == meta.end() ? std::string{} : at->second;
+  };
+  JournalIdentity identity{{value_of("study"), value_of("domain"), files_from(value_of("files"))},
+                           value_of("program"),
+                           number_of(value_of("teams")),
+                           {number_of(value_of("shard")), number_of(value_of("shards"))},
+                           value_of("arithmetic")};
   std::vector<std::string> wrong;
   for (const auto& [key, value] : meta_of(identity)) {
-    if (meta_value(database, key) != value) wrong.push_back(key);
+    if (value_of(key) != value) wrong.push_back(key);
   }
-  const auto schema = meta_value(database, "schema");
+  const auto schema = value_of("schema");
   if (wrong.size() > 1 && is_schema(schema) && schema != kSchema) {
     throw Error{
         ErrorKind::kUsage,
@@ -233,10 +231,11 @@ bool salvage_journal(const fs::path& path, const JournalIdentity& identity, bool
   const auto key = identity.key();
   fill(fresh, identity, [&](Database& database) {
     auto insert = database.prepare("INSERT OR IGNORE INTO units VALUES (?, ?)");
-    salvage_records(path, key, identity.teams, [&](std::size_t team, std::string_view bytes) {
-      if (!identity.shard.contains(team)) return;
+    read_remaining_rows(path, "SELECT team, record FROM units", [&](const Statement& row) {
+      const auto team = row.integer(0);
+      if (!belongs(identity, team) || !is_intact(static_cast<std::size_t>(team), row.blob(1), key)) return;
       ++found;
-      insert.bind(1, static_cast<std::int64_t>(team)).bind_blob(2, bytes).run();
+      insert.bind(1, team).bind_blob(2, row.blob(1)).run();
     });
   });
   if (found == 0 && !known) {

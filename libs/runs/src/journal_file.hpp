@@ -8,8 +8,6 @@
 // How the file of a journal comes to be, is read, and is replaced after damage; what is in it is the Journal's.
 namespace kith {
 
-inline constexpr int kJournalPageSize = 4096;
-
 // Whether there is a file of that name, whatever it is. @throws kith::Error (kIo) if that cannot be told.
 [[nodiscard]] bool is_there(const std::filesystem::path& path);
 
@@ -28,7 +26,7 @@ void make_journal_file(const std::filesystem::path& path, const JournalIdentity&
 // Whether the team belongs to this study and shard.
 [[nodiscard]] bool belongs(const JournalIdentity& identity, std::int64_t team);
 
-// Copies every intact record of this identity from the damaged journal at `path` to a new one, which takes its place;
+// Copies every intact record of this identity that SQLite reads from the damaged journal at `path` to a new one, which takes its place;
 // the old one is kept as `path`.damaged. Where this is ended, replace_by_salvaged() or the next call goes on.
 // Returns false, and changes nothing, if there is no such record, unless the file is `known` to be of this identity.
 [[nodiscard]] bool salvage_journal(const std::filesystem::path& path, const JournalIdentity& identity, bool known);

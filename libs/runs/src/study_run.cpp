@@ -152,8 +152,9 @@ bool StudyRun::State::open_own_journal() {
     return true;
   }
   if (!options.replace && !options.rebuild) {
-    throw Error{ErrorKind::kIo, file.string() + " is damaged, and no record of this study can be read from it",
-                Advice{"restore the file from a copy", Remedy::kStartOver}};
+    throw Error{
+        ErrorKind::kIo, file.string() + " is damaged, and no record of this study can be read from it",
+        Advice{"restore the file from a copy or with 'sqlite3 " + file.string() + " .recover'", Remedy::kStartOver}};
   }
   notes.push_back(file.string() +
                   " is damaged, and no record of this study can be read from it; the study starts over");

@@ -12,6 +12,7 @@
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/folder_lock.hpp"
+#include "kith/files/sqlite.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "run_support.hpp"
 
@@ -24,6 +25,9 @@ using ::testing::IsEmpty;
 using testing::ScratchFolder;
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostOfForty = 25;   // in all pages of records but one
+constexpr std::size_t kRootOfRecords = 4;  // the page that leads to them
 
 JournalIdentity identity(std::size_t teams = 100) { return {{"study", "domain"}, "kith 1", teams, {}, "bits"}; }
 
@@ -89,6 +93,11 @@ class JournalTest : public ::testing::Test {
   void put(const std::string& bytes) const {
     Journal::remove(file_);
     std::ofstream{file_, std::ios::binary} << bytes;
+  }
+  // Its bytes with a page overwritten that holds no records: the last table that was made begins there.
+  [[nodiscard]] std::string damaged_elsewhere() const {
+    constexpr std::size_t kBatches = 7;
+    return bytes().replace((kBatches - 1) * kSqlitePageSize, kSqlitePageSize, kSqlitePageSize, '\xA5');
   }
   // A journal of 40 teams, closed.
   void write_forty() const {
@@ -225,50 +234,53 @@ TEST_F(JournalTest, RecoversWhatIsIntactFromADamagedFile) {
 }
 
 // One bit after the other is flipped, all over the file: whatever can still be read is right, and most of it can be.
-TEST_F(JournalTest, NeverHandsOutAWrongRecordAndLosesFewIfABitFlips) {
+// Where SQLite reads nothing any more, because of its header or the list of its tables, the file stays as it is.
+TEST_F(JournalTest, NeverHandsOutAWrongRecordAndLosesAPageAtMostIfABitFlips) {
   write_forty();
   const auto good = bytes();
+  std::size_t refused = 0;
   for (std::size_t at = 3; at < good.size(); at += good.size() / 197) {
     auto bad = good;
     bad[at] = static_cast<char>(bad[at] ^ (1 << (at % 8)));
     put(bad);
-    const auto journal = opened(identity(40));
-    EXPECT_GE(journal.num_done(), 39u) << at;
+    const auto journal = Journal::open(file_, identity(40));
+    if (!journal) {
+      ++refused;
+      EXPECT_EQ(bytes(), bad) << at;
+      EXPECT_LT(at, std::size_t{kSqlitePageSize}) << "only what stands in the first page can hide all others";
+      continue;
+    }
+    const auto page = at / kSqlitePageSize + 1;
+    if (page != 1 && page != kRootOfRecords) {
+      EXPECT_GE(journal->num_done(), kMostOfForty) << at;
+    }
     for (std::size_t team = 1; team <= 40; ++team) {
-      if (journal.done()[team - 1]) {
-        EXPECT_EQ(journal.find(team), entry(team).bytes);
+      if (journal->done()[team - 1]) {
+        EXPECT_EQ(journal->find(team), entry(team).bytes);
       }
     }
   }
+  EXPECT_LE(refused, 20U);
 }
 
-TEST_F(JournalTest, KeepsEveryRecordOfATruncatedFileThatIsStillThere) {
+TEST_F(JournalTest, KeepsTheRecordsInTheWholePagesOfATruncatedFile) {
   write_forty();
   const auto good = bytes();
-  for (const std::size_t length : {good.size() - 1, good.size() - 4096, good.size() - 5000, good.size() / 2}) {
+  for (const std::size_t length : {good.size() - 1, good.size() - 4096, good.size() - 5000}) {
     put(good.substr(0, length));
-    const auto journal = Journal::open(file_, identity(40));
-    // What the file still holds of each record, one behind the other on its pages.
-    std::size_t there = 0;
-    for (std::size_t team = 1; team <= 40; ++team) {
-      const auto& record = entry(team).bytes;
-      there += good.substr(0, length).find(record) != std::string::npos ? 1u : 0u;
-    }
-    ASSERT_EQ(journal.has_value(), there > 0) << length;
-    if (journal) {
-      EXPECT_EQ(journal->num_done(), there) << length;
-    }
+    const auto journal = opened(identity(40));
+    EXPECT_GE(journal.num_done(), length + 4096 < good.size() ? 10U : kMostOfForty) << length;
+    journal.for_each([](std::size_t team, std::string_view bytes) { EXPECT_EQ(bytes, entry(team).bytes); });
   }
 }
 
-TEST_F(JournalTest, IsRecoveredWithoutItsHeader) {
+TEST_F(JournalTest, IsLeftAsItIsWithoutItsHeader) {
   write_forty();
   auto bad = bytes();
   bad.replace(0, 100, 100, '\xA5');
   put(bad);
-  const auto journal = opened(identity(40));
-  EXPECT_TRUE(journal.was_recovered());
-  EXPECT_EQ(journal.num_done(), 40u);
+  EXPECT_FALSE(Journal::open(file_, identity(40)));
+  EXPECT_EQ(bytes(), bad);
 }
 
 TEST_F(JournalTest, IsRecoveredWithRecordsOfManyPages) {
@@ -282,10 +294,9 @@ TEST_F(JournalTest, IsRecoveredWithRecordsOfManyPages) {
     journal.write(entries(1, 6));
     journal.close();
   }
-  auto bad = bytes();
-  bad.replace(0, 100, 100, '\xA5');
-  put(bad);
+  put(damaged_elsewhere());
   const auto journal = opened();
+  EXPECT_TRUE(journal.was_recovered());
   EXPECT_EQ(journal.num_done(), 7u);
   EXPECT_EQ(journal.find(7), large.bytes);
 }
@@ -293,8 +304,7 @@ TEST_F(JournalTest, IsRecoveredWithRecordsOfManyPages) {
 // A salvage that is ended between any two of its steps goes on the next time.
 TEST_F(JournalTest, LosesNothingIfASalvageIsInterrupted) {
   write_forty();
-  auto damaged = bytes();
-  damaged.replace(0, 100, 100, '\xA5');
+  const auto damaged = damaged_elsewhere();
   put(damaged);
   (void)opened(identity(40));
   const auto fresh = bytes();
@@ -363,8 +373,7 @@ TEST_F(JournalTest, LeavesNothingBehindIfTheDiskIsFullWhileItIsMade) {
 
 TEST_F(JournalTest, LosesNothingIfTheDiskIsFullDuringASalvage) {
   write_forty();
-  auto damaged = bytes();
-  damaged.replace(0, 100, 100, '\xA5');
+  const auto damaged = damaged_elsewhere();
   put(damaged);
   (void)with_file_limit(30'000, [&] { return message_of([&] { (void)opened(identity(40)); }); });
   EXPECT_EQ(bytes(), damaged);

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSelectEvents = "SELECT room, seq, at_us, actor, type, json, message, checksum FROM event";
-
 [[noreturn]] void refuse_damaged(const fs::path& path, const std::string& what) {
   refuse_run(ErrorKind::kMismatch, "E1612", path, "the session is damaged: " + what,
              "recover the intact events with 'kith session salvage'");
@@ -28,13 +26,6 @@ constexpr const char* kSelectEvents = "SELECT room, seq, at_us, actor, type, jso
 [[noreturn]] void refuse_other_study(const fs::path& path) {
   refuse_run(ErrorKind::kMismatch, "E1611", path, "the folder holds a session of another study",
              "use another folder, or the study that the session was started with");
-}
-
-std::map<std::string, std::string> read_meta(Database& database) {
-  std::map<std::string, std::string> meta;
-  auto rows = database.prepare("SELECT key, value FROM meta");
-  while (rows.step()) meta.emplace(rows.text(0), rows.text(1));
-  return meta;
 }
 
 // What SQLite says of a file that is no database, or has other tables, is that it is damaged.
@@ -46,17 +37,6 @@ auto reading(const fs::path& path, Read read) {
     if (error.damaged()) refuse_damaged(path, "it cannot be read as a database");
     throw;
   }
-}
-
-StoredEvent event_at(const Statement& row) {
-  StoredEvent event{.room = row.integer(0),
-                    .seq = static_cast<std::uint64_t>(row.integer(1)),
-                    .at_us = row.integer(2),
-                    .actor = std::string{row.text(3)},
-                    .type = std::string{row.text(4)},
-                    .json = std::string{row.text(5)}};
-  if (!row.text(6).empty()) event.message = std::string{row.text(6)};
-  return event;
 }
 
 std::string place_of(std::int64_t room, std::uint64_t seq) {
@@ -119,14 +99,9 @@ struct EventFile::State {
 
   [[nodiscard]] std::vector<StoredToken> tokens() {
     std::vector<StoredToken> all;
-    auto rows = database.prepare("SELECT hash, role, room, seat, expires_us, revoked, checksum FROM token");
+    auto rows = database.prepare(kSelectTokens);
     while (rows.step()) {
-      StoredToken token{.hash = std::string{rows.blob(0)},
-                        .role = std::string{rows.text(1)},
-                        .room = rows.integer(2),
-                        .seat = rows.integer(3),
-                        .expires_us = rows.integer(4),
-                        .revoked = rows.integer(5) != 0};
+      auto token = token_at(rows);
       if (rows.blob(6) != seal(token, key)) refuse_damaged(path, "a link has a wrong checksum");
       all.push_back(std::move(token));
     }
@@ -152,7 +127,7 @@ EventFile EventFile::open(const fs::path& folder, const StoreIdentity& identity,
     if (is_empty(database)) {
       return make(folder, identity, beside ? beside->id : new_store_id(), now_us);
     }
-    if (!kith::is_sound(database)) refuse_damaged(path, "SQLite's check of the file fails");
+    if (!is_sound(database, SqliteCheck::kIndexes)) refuse_damaged(path, "SQLite's check of the file fails");
     require_version(database);
     const auto facts = from_meta(read_meta(database));
     if (!facts) refuse_damaged(path, "its description has a wrong checksum");
@@ -205,9 +180,9 @@ std::int64_t EventFile::created_us() const noexcept { return state_->facts.creat
 std::vector<StoredRoom> EventFile::rooms() {
   return reading(state_->path, [&] {
     std::vector<StoredRoom> rooms;
-    auto rows = state_->database.prepare("SELECT number, setup, created_us, checksum FROM room ORDER BY number");
+    auto rows = state_->database.prepare(std::string{kSelectRooms} + " ORDER BY number");
     while (rows.step()) {
-      StoredRoom room{.number = rows.integer(0), .setup = std::string{rows.text(1)}, .created_us = rows.integer(2)};
+      auto room = room_at(rows);
       if (rows.blob(3) != seal(room, state_->key))
         refuse_damaged(state_->path, "room " + std::to_string(room.number) + " has a wrong checksum");
       if (room.number != 0) rooms.push_back(std::move(room));
@@ -248,7 +223,7 @@ std::uint64_t EventFile::count_events(std::optional<std::int64_t> room) {
 }
 
 void EventFile::verify() {
-  if (!reading(state_->path, [&] { return kith::is_sound(state_->database); }))
+  if (!reading(state_->path, [&] { return is_sound(state_->database, SqliteCheck::kIndexes); }))
     refuse_damaged(state_->path, "SQLite's check of the file fails");
   static_cast<void>(rooms());
   static_cast<void>(tokens());

@@ -1,23 +1,20 @@
-#include <algorithm>
-#include <array>
 #include <map>
 #include <system_error>
 #include <utility>
-#include <variant>
 
 #include "event_seal.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
-#include "kith/files/sqlite_pages.hpp"
+#include "kith/files/sqlite.hpp"
 #include "kith/store/session_review.hpp"
 #include "store_identity.hpp"
+#include "store_schema.hpp"
 
 namespace kith {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Text = std::string;
 using Integer = std::int64_t;
 
 // Rows that were found intact.
@@ -27,65 +24,33 @@ struct Found {
   std::map<std::string, StoredToken> tokens;
 };
 
-// The identity from the file beside the database or, if that is lost, from the rows of the database.
+// The identity from the file beside the database or, if that is lost, from the database.
 std::optional<StoreFacts> find_identity(const fs::path& folder) {
   if (auto facts = read_identity_file(folder)) return facts;
   std::map<std::string, std::string> meta;
-  constexpr std::array kMeta{SqliteType::kText, SqliteType::kText};
-  scan_sqlite_rows(folder / kEventFile, kMeta, [&](const SqliteRow& row) {
-    const auto& key = std::get<Text>(row.values[0]);
-    constexpr std::array<std::string_view, 6> kKeys{"schema", "id", "study", "program", "created_us", "checksum"};
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end() && key.compare(0, 6, "input/") != 0) return false;
-    meta[key] = std::get<Text>(row.values[1]);
-    return true;
-  });
+  read_remaining_rows(folder / kEventFile, "SELECT key, value FROM meta",
+                      [&](const Statement& row) { meta.emplace(row.text(0), row.text(1)); });
   return from_meta(meta);
 }
 
-void find_rooms(const fs::path& path, const std::string& key, Found& found) {
-  constexpr std::array kRoom{SqliteType::kRowNumber, SqliteType::kText, SqliteType::kInteger, SqliteType::kBlob};
-  scan_sqlite_rows(path, kRoom, [&](const SqliteRow& row) {
-    StoredRoom room{
-        .number = row.number, .setup = std::get<Text>(row.values[1]), .created_us = std::get<Integer>(row.values[2])};
-    if (std::get<Text>(row.values[3]) != seal(room, key)) return false;
-    found.rooms.emplace(room.number, std::move(room));
-    return true;
+Found find_rows(const fs::path& path, const std::string& key) {
+  Found found;
+  read_remaining_rows(path, kSelectRooms, [&](const Statement& row) {
+    auto room = room_at(row);
+    if (row.blob(3) == seal(room, key)) found.rooms.emplace(room.number, std::move(room));
   });
-}
-
-void find_tokens(const fs::path& path, const std::string& key, Found& found) {
-  constexpr std::array kToken{SqliteType::kBlob,    SqliteType::kText,    SqliteType::kInteger, SqliteType::kInteger,
-                              SqliteType::kInteger, SqliteType::kInteger, SqliteType::kBlob};
-  scan_sqlite_rows(path, kToken, [&](const SqliteRow& row) {
-    StoredToken token{.hash = std::get<Text>(row.values[0]),
-                      .role = std::get<Text>(row.values[1]),
-                      .room = std::get<Integer>(row.values[2]),
-                      .seat = std::get<Integer>(row.values[3]),
-                      .expires_us = std::get<Integer>(row.values[4]),
-                      .revoked = std::get<Integer>(row.values[5]) != 0};
-    if (std::get<Text>(row.values[6]) != seal(token, key)) return false;
-    // An older copy of the row may be in the log: what was revoked stays so.
+  read_remaining_rows(path, kSelectTokens, [&](const Statement& row) {
+    auto token = token_at(row);
+    if (row.blob(6) != seal(token, key)) return;
+    // The file may have an older copy of the row than the log: what was revoked stays so.
     auto& kept = found.tokens.emplace(token.hash, token).first->second;
     kept.revoked = kept.revoked || token.revoked;
-    return true;
   });
-}
-
-void find_events(const fs::path& path, const std::string& key, Found& found) {
-  constexpr std::array kEvent{SqliteType::kInteger, SqliteType::kInteger, SqliteType::kInteger,    SqliteType::kText,
-                              SqliteType::kText,    SqliteType::kText,    SqliteType::kTextOrNull, SqliteType::kBlob};
-  scan_sqlite_rows(path, kEvent, [&](const SqliteRow& row) {
-    StoredEvent event{.room = std::get<Integer>(row.values[0]),
-                      .seq = static_cast<std::uint64_t>(std::get<Integer>(row.values[1])),
-                      .at_us = std::get<Integer>(row.values[2]),
-                      .actor = std::get<Text>(row.values[3]),
-                      .type = std::get<Text>(row.values[4]),
-                      .json = std::get<Text>(row.values[5])};
-    if (const auto* message = std::get_if<Text>(&row.values[6])) event.message = *message;
-    if (std::get<Text>(row.values[7]) != seal(event, key)) return false;
-    found.events.emplace(std::pair{event.room, event.seq}, std::move(event));
-    return true;
+  read_remaining_rows(path, kSelectEvents, [&](const Statement& row) {
+    auto event = event_at(row);
+    if (row.blob(7) == seal(event, key)) found.events.emplace(std::pair{event.room, event.seq}, std::move(event));
   });
+  return found;
 }
 
 // The events of each known room up to the first that is missing; says what had to be left out.
@@ -148,11 +113,12 @@ SalvageReport salvage_session(const fs::path& folder, const fs::path& target) {
   }
 
   const auto key = store_key(facts->id, facts->identity.study);
-  Found found;
-  find_rooms(path, key, found);
-  find_tokens(path, key, found);
-  find_events(path, key, found);
-
+  const auto found = find_rows(path, key);
+  if (found.rooms.empty()) {
+    refuse_run(ErrorKind::kMismatch, "E1619", path, "SQLite reads nothing of the session any more",
+               "put session.json and what 'sqlite3 session.sqlite .recover | sqlite3 NEW' makes into a new folder, and "
+               "salvage that");
+  }
   SalvageReport report;
   auto batch = complete_beginnings(found, report);
   for (const auto& [hash, token] : found.tokens) batch.tokens.push_back(token);

@@ -1,7 +1,7 @@
 #include "store_schema.hpp"
 
 #include "kith/files/published_run.hpp"
-#include "kith/files/sqlite_pages.hpp"
+#include "kith/files/sqlite.hpp"
 
 namespace kith {
 namespace {
@@ -19,6 +19,30 @@ constexpr const char* kTables =
     " expires_us INTEGER NOT NULL, revoked INTEGER NOT NULL, checksum BLOB NOT NULL, UNIQUE(hash)) STRICT;";
 
 }  // namespace
+
+StoredRoom room_at(const Statement& row) {
+  return {.number = row.integer(0), .setup = std::string{row.text(1)}, .created_us = row.integer(2)};
+}
+
+StoredToken token_at(const Statement& row) {
+  return {.hash = std::string{row.blob(0)},
+          .role = std::string{row.text(1)},
+          .room = row.integer(2),
+          .seat = row.integer(3),
+          .expires_us = row.integer(4),
+          .revoked = row.integer(5) != 0};
+}
+
+StoredEvent event_at(const Statement& row) {
+  StoredEvent event{.room = row.integer(0),
+                    .seq = static_cast<std::uint64_t>(row.integer(1)),
+                    .at_us = row.integer(2),
+                    .actor = std::string{row.text(3)},
+                    .type = std::string{row.text(4)},
+                    .json = std::string{row.text(5)}};
+  if (!row.text(6).empty()) event.message = std::string{row.text(6)};
+  return event;
+}
 
 void prepare_connection(Database& database) {
   database.execute(
@@ -48,16 +72,6 @@ void require_version(Database& database) {
              "the session was written by another version of kith (its file has version " + std::to_string(found) +
                  ", this program reads version " + std::to_string(EventFile::kVersion) + ")",
              "use the version of kith that made it, or another folder");
-}
-
-bool is_sound(Database& database) {
-  try {
-    auto check = database.prepare("PRAGMA integrity_check(1)");
-    return check.step() && check.text(0) == "ok";
-  } catch (const SqliteError& error) {
-    if (error.damaged()) return false;
-    throw;
-  }
 }
 
 }  // namespace kith

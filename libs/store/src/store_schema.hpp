@@ -18,7 +18,12 @@ void make_tables(Database& database, const StoreFacts& facts);
 // @throws kith::Error kUsage E1613 if the file is of another version than this program writes.
 void require_version(Database& database);
 
-// Whether SQLite finds no fault in the file.
-[[nodiscard]] bool is_sound(Database& database);
+// Rows, with the checksum behind the columns that are read from them.
+inline constexpr const char* kSelectRooms = "SELECT number, setup, created_us, checksum FROM room";
+inline constexpr const char* kSelectTokens = "SELECT hash, role, room, seat, expires_us, revoked, checksum FROM token";
+inline constexpr const char* kSelectEvents = "SELECT room, seq, at_us, actor, type, json, message, checksum FROM event";
+[[nodiscard]] StoredRoom room_at(const Statement& row);
+[[nodiscard]] StoredToken token_at(const Statement& row);
+[[nodiscard]] StoredEvent event_at(const Statement& row);
 
 }  // namespace kith

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -103,5 +104,28 @@ class Statement {
   const Database* database_;
   sqlite3_stmt* handle_ = nullptr;
 };
+
+/// The size of pages of the databases that kith makes.
+inline constexpr int kSqlitePageSize = 4096;
+
+/// What a file of kith is: the rows of its table meta(key, value).
+[[nodiscard]] std::map<std::string, std::string> read_meta(Database& database);
+
+/// How much is_sound() looks at.
+enum class SqliteCheck : std::uint8_t {
+  kPages,    ///< Whether all pages can be read and hold what they should.
+  kIndexes,  ///< Whether indexes agree with their tables, too.
+};
+
+/// Whether SQLite finds no fault in the file.
+[[nodiscard]] bool is_sound(Database& database, SqliteCheck check);
+
+/// Visits the rows of a damaged file that SQLite can still read: from the first on, from the last on, with the log
+/// beside the file and without it. What SQLite cannot read at all, `sqlite3 FILE .recover` may. A row may come several
+/// times, and must tell by a checksum whether it is intact and of this file.
+/// @param select  of one table, without an order.
+/// @throws kith::Error (kIo) if the file cannot be opened.
+void read_remaining_rows(const std::filesystem::path& path, const std::string& select,
+                         const std::function<void(const Statement& row)>& visit);
 
 }  // namespace kith
