@@ -213,7 +213,7 @@ class Domain:
         return document
 
     def lesson(self, path: Union[str, os.PathLike[str], None] = None, *, program: str = "kith") -> Report:
-        """A lesson in one file that teaches whoever opens it, as `kith lesson` writes it; a notebook shows it.
+        """A lesson in one file that teaches whoever opens it, as `kith lesson --adaptive` writes it; a notebook shows it.
 
         path: where it is written; without, nowhere that lasts. program: a kith with the engine of lessons, built with
         `./run.sh --lesson`; kith.Error if it has none, FileNotFoundError if there is no such program.
@@ -225,7 +225,7 @@ class Domain:
 
         with tempfile.TemporaryDirectory() as folder:
             place = FilePath(path) if path is not None else FilePath(folder) / "lesson.html"
-            done = subprocess.run([program, "lesson", str(self.save(folder)), "-o", str(place)], capture_output=True, text=True)
+            done = subprocess.run([program, "lesson", str(self.save(folder)), "--adaptive", "-o", str(place)], capture_output=True, text=True)
             if done.returncode != 0:
                 raise Error(done.stderr.strip(), "infeasible" if done.returncode == 4 else "usage")
             return Report(place, place.read_text(encoding="utf-8"))

@@ -27,7 +27,7 @@ const fileOf = (robot) => `${folderOf(robot)}/${robot}.toml`;
 export const COMMANDS = {
   ...Object.fromEntries(Object.keys(ROBOTS).map((robot) => [robot, study('studies/gallery.toml', `domain="${fileOf(robot)}"`)])),
   ...Object.fromEntries(Object.keys(ROBOTS).map((robot) => [`inspect ${robot}`, ['inspect', fileOf(robot), '--json']])),
-  ...Object.fromEntries(Object.keys(ROBOTS).map((robot) => [`lesson ${robot}`, ['curriculum', fileOf(robot), '--json']])),
+  ...Object.fromEntries(Object.keys(ROBOTS).map((robot) => [`lesson ${robot}`, ['lesson', fileOf(robot), '--json']])),
 };
 
 export function makeContent(runs) {

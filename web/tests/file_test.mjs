@@ -71,7 +71,7 @@ async function withReader(name, look, body) {
 describe('a lesson in a file', () => {
   before(async () => {
     browser = await launch(values.modules, values.chromium);
-    kith('lesson', 'item-delivery', '-o', join(folder, 'delivery.html'));
+    kith('lesson', 'item-delivery', '--adaptive', '-o', join(folder, 'delivery.html'));
   });
   after(async () => {
     await browser?.close();
@@ -199,7 +199,7 @@ describe('a lesson in a file', () => {
   });
 
   it('teaches models as CSV, and chooses the lesson that the program chooses', async () => {
-    kith('lesson', join(here, '../../domains/gallery/frozen_lake.toml'), '-o', join(folder, 'lake.html'));
+    kith('lesson', join(here, '../../domains/gallery/frozen_lake.toml'), '--adaptive', '-o', join(folder, 'lake.html'));
     await withReader('lake.html', {}, async (reader) => {
       await reader.consent();
       await reader.at('What this is about');
@@ -331,7 +331,7 @@ describe('a lesson in a file', () => {
     const questions = `[{ id = "a", kind = "choice", text = ${JSON.stringify(evil)}, options = ${texts} }]`;
     const options = [...set('title', evil), ...set('group.title', evil), ...set('group.goal', evil)];
     options.push('--set', `group.story=${texts}`, '--set', `group.consent={ version = "1", text = ${texts} }`, '--set', `group.questions=${questions}`);
-    kith('lesson', join(folder, 'evil.toml'), ...options, '-o', join(folder, 'evil.html'));
+    kith('lesson', join(folder, 'evil.toml'), ...options, '--adaptive', '-o', join(folder, 'evil.html'));
     await withReader('evil.html', {}, async (reader) => {
       const look = async () => {
         const found = await reader.page.evaluate(() => ({ hacked: window.hacked ?? null, images: document.querySelectorAll('img, iframe, script[src]:not([src^="blob:"]), #page script, #page style').length }));

@@ -254,7 +254,6 @@ Commands all_commands() {
   add_validate(commands);
   add_inspect(commands);
   add_infer(commands);
-  add_curriculum(commands);
   add_lesson(commands);
   add_ask(commands);
   add_find(commands);

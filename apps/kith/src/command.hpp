@@ -217,7 +217,6 @@ class Commands {
 void add_analyze(Commands& commands);
 void add_ask(Commands& commands);
 void add_audit(Commands& commands);
-void add_curriculum(Commands& commands);
 void add_lesson(Commands& commands);
 void add_doctor(Commands& commands);
 void add_explain(Commands& commands);

@@ -1,9 +1,10 @@
+#include "curriculum_command.hpp"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "build_facts.hpp"
-#include "command.hpp"
 #include "embedded.hpp"
 #include "input.hpp"
 #include "kith/bec/memory_needs.hpp"
@@ -19,13 +20,6 @@
 
 namespace kith::cli {
 namespace {
-
-struct CurriculumCommandOptions {
-  std::string domain;
-  std::string knowing;  ///< The robot before an update, which people know; empty: they know nothing.
-  std::string out;      ///< Where the page goes; "-" is standard output; empty: no page.
-  std::uint64_t seed = 1;
-};
 
 // The curriculum for a terminal.
 class CurriculumText {
@@ -125,15 +119,9 @@ class CurriculumText {
   std::string out_;
 };
 
-void declare(OptionList& list, CurriculumCommandOptions& options) {
-  list.domain(options.domain).required();
-  list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
-  list.text("--knowing", options.knowing, "DOMAIN", "The robot before an update, which people know");
-  list.integer("--seed", options.seed, {}, "Seed of all random streams");
-  list.json();
-}
+}  // namespace
 
-int run(const CurriculumCommandOptions& options, Console& console) {
+int show_curriculum(const CurriculumCommandOptions& options, Console& console) {
   const WorkNotice notice{console, "choosing what to teach about " + options.domain};
   auto domain = load_domain(options.domain);
   require_teaching_memory(domain);
@@ -151,16 +139,6 @@ int run(const CurriculumCommandOptions& options, Console& console) {
     write_page("lesson", page_with(for_page(document).dump(-1, ' ', true), detail::kLessonPage), options.out, console);
   if (console.json()) console.print_json(document);
   return 0;
-}
-
-}  // namespace
-
-void add_curriculum(Commands& commands) {
-  commands.add<CurriculumCommandOptions>(
-      "curriculum", "Show what would be taught: demonstrations with reasons, and tests",
-      {"kith curriculum item-delivery", "kith curriculum my-domain.toml -o lesson.html",
-       "kith curriculum new.toml --knowing old.toml"},
-      declare, run);
 }
 
 }  // namespace kith::cli

@@ -111,7 +111,7 @@ void write_world(const FindOptions& options, const Domain& domain, MdpIndex worl
   }
   if (!text) throw not_a_file_of_its_own(domain, world);
   write_file_atomically(options.out, *text);
-  console.info(fmt::format("world in {}; kith curriculum {} shows it", options.out, options.out));
+  console.info(fmt::format("world in {}; kith lesson {} shows it", options.out, options.out));
 }
 
 // Whether any start conveys it, and what comes with it.

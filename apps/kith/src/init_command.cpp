@@ -65,7 +65,7 @@ int run(const InitOptions& options, Console& console) {
   const auto enter = folder == "." ? std::string{} : "  cd " + folder.string() + "\n";
   console.print(
       fmt::format("wrote {} in {}; try\n{}  kith validate domain.toml study.toml\n"
-                  "  kith curriculum domain.toml\n  kith study study.toml -o results\n",
+                  "  kith lesson domain.toml\n  kith study study.toml -o results\n",
                   fmt::join(names, ", "), folder.string(), enter));
   return 0;
 }

@@ -1,12 +1,14 @@
-// kith lesson: a lesson in one file, which teaches whoever opens it.
+// kith lesson: what is taught, for a terminal or as a page; with an engine in the page it adapts to whoever opens it.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "build_facts.hpp"
 #include "command.hpp"
+#include "curriculum_command.hpp"
 #include "embedded.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
@@ -23,13 +25,20 @@ namespace {
 struct LessonOptions {
   std::string what;     ///< A study or a domain.
   std::string knowing;  ///< The robot before an update, which everybody knows; empty: as the study says.
-  std::string out;
+  std::string out;      ///< Empty: the lesson is printed.
+  std::uint64_t seed = 1;
+  bool is_adaptive = false;
   std::vector<std::string> set;
   std::vector<std::string> origins;
   bool is_playground = false;
 };
 
-bool is_study(const std::string& text) { return text.find("kith.study/") != std::string::npos; }
+// What cannot be read is no study; whoever reads it as a domain says what is wrong.
+bool is_study(const std::string& what) try {
+  return read_named(what).text.find("kith.study/") != std::string::npos;
+} catch (const Error&) {
+  return false;
+}
 
 // The text as a string of TOML.
 std::string quoted_toml(const std::string& text) {
@@ -45,7 +54,7 @@ const std::vector<std::string> kCrew{
     R"(confirm_gain = { half_normal = 0.022 }, correct_gain = { half_normal = 0.052 } })"};
 
 StudyReading reading_of(const LessonOptions& options) {
-  if (is_study(read_named(options.what).text)) return study_of(options.what, options.set);
+  if (is_study(options.what)) return study_of(options.what, options.set);
   std::string text{detail::kLessonStudy};
   const std::string place = "\"DOMAIN\"";
   text.replace(text.find(place), place.size(), quoted_toml(options.what));
@@ -98,9 +107,12 @@ void write_package(Json document, const std::string& out, Console& console) {
 void declare(OptionList& list, LessonOptions& options) {
   list.text("what", options.what, "STUDY|DOMAIN", "A study, or a domain to be taught alone").required();
   list.text("-o,--out", options.out, "FILE",
-            "The lesson, one HTML file ('-' is standard output), or a .zip for learning systems")
-      .required();
+            "Write the lesson, one HTML file ('-' is standard output), or a .zip for learning systems");
   list.text("--knowing", options.knowing, "DOMAIN", "The robot before an update, which people know");
+  list.flag("--adaptive", options.is_adaptive,
+            "A page that chooses each lesson by the answers before; so is that of a study, and a .zip");
+  list.integer("--seed", options.seed, {}, "Seed of all random streams of a lesson that does not adapt");
+  list.json();
   list.flag("--playground", options.is_playground,
             "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
   list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
@@ -108,6 +120,12 @@ void declare(OptionList& list, LessonOptions& options) {
 }
 
 int run(const LessonOptions& options, Console& console) {
+  const bool is_package = std::filesystem::path{options.out}.extension() == ".zip";
+  const bool adapts = options.is_adaptive || options.is_playground || is_package || !options.origins.empty() ||
+                      !options.set.empty() || is_study(options.what);
+  if (!adapts) return show_curriculum({options.what, options.knowing, options.out, options.seed}, console);
+  if (options.out.empty() || console.json())
+    refuse("a lesson that adapts is a page", "write it with -o lesson.html or -o lesson.zip, without --json");
   require_engine();
   const WorkNotice notice{console, "preparing the lesson"};
   const auto reading = reading_for(options);
@@ -116,7 +134,6 @@ int run(const LessonOptions& options, Console& console) {
   auto document = lesson_document(make_session_study(reading, folder), program_name());
   for (const auto& origin : options.origins) require_origin(origin);
   document["origins"] = options.origins;
-  const bool is_package = std::filesystem::path{options.out}.extension() == ".zip";
   if (options.is_playground) {
     if (is_package) refuse("--playground makes a page, not a package for learning systems", "name a file.html with -o");
     document["playground"] = true;
@@ -134,9 +151,10 @@ int run(const LessonOptions& options, Console& console) {
 }  // namespace
 
 void add_lesson(Commands& commands) {
-  commands.add<LessonOptions>("lesson", "Write a lesson that teaches whoever opens it, in one file",
-                              {"kith lesson item-delivery -o lesson.html", "kith lesson study.toml -o lesson.zip",
-                               "kith lesson item-delivery --playground -o playground.html"},
+  commands.add<LessonOptions>("lesson", "Show what would be taught, or write a page that teaches it",
+                              {"kith lesson item-delivery", "kith lesson my-domain.toml -o lesson.html",
+                               "kith lesson item-delivery --adaptive -o lesson.html",
+                               "kith lesson study.toml -o lesson.zip", "kith lesson new.toml --knowing old.toml"},
                               declare, run);
 }
 

@@ -156,6 +156,10 @@ int run(std::vector<std::string> arguments, Console& console) {
   auto name = arguments.front();
   arguments.erase(arguments.begin());
   if (name == "--version" || name == "-V") name = "version";
+  if (name == "curriculum") {
+    name = "lesson";
+    console.info("'kith curriculum' is called 'kith lesson' now");
+  }
   const auto command =
       std::find_if(commands.begin(), commands.end(), [&](const auto& one) { return one.name == name; });
   if (command == commands.end()) {

@@ -12,8 +12,8 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands{"init",  "validate", "inspect", "curriculum", "ask",    "find",
-                                         "teach", "study",    "serve",   "doctor",     "version"};
+const std::vector<std::string> kCommands{"init",  "validate", "inspect", "lesson", "ask",    "find",
+                                         "teach", "study",    "serve",   "doctor", "version"};
 
 TEST(CommandLine, HasShortAndFullHelpForEveryCommand) {
   for (const auto& command : kCommands) {

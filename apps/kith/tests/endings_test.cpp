@@ -157,7 +157,7 @@ TEST(StandardStreams, ThatAreClosedAreErrorsWhereTheyAreNeeded) {
 }
 
 TEST(Json, ThatCannotBeWrittenIsAnErrorInWords) {
-  const auto ran = run_kith({"curriculum", "item-delivery", "--json"}, {.out_to = "/dev/full"});
+  const auto ran = run_kith({"lesson", "item-delivery", "--json"}, {.out_to = "/dev/full"});
   EXPECT_EQ(ran.code, 5);
   EXPECT_THAT(ran.err, HasSubstr("kith: error: cannot write to standard output: No space left on device"));
   const auto wrong = run_kith({"inspect", "item-delivry", "--json"}, {.out_to = "/dev/full"});
@@ -320,7 +320,7 @@ TEST(Words, WithBlanksAroundThemAreUnderstoodByEveryCommand) {
        std::vector<std::vector<std::string>>{{"find", scratch / "d.toml"},
                                              {"inspect", scratch / "d.toml"},
                                              {"ask", scratch / "d.toml", "when does it recharge?"},
-                                             {"curriculum", scratch / "d.toml"}}) {
+                                             {"lesson", scratch / "d.toml"}}) {
     EXPECT_EQ(run_kith(command).code, 0) << command.front();
   }
   EXPECT_THAT(run_kith({"validate", scratch / "d.toml"}).err, HasSubstr("W0305"));

@@ -38,7 +38,7 @@ void expect_board(const Json& document, const Json& board, const Json& frames) {
 }
 
 TEST(CurriculumCommand, PrintsBoardsReasonsAndTestsAsJson) {
-  const auto ran = run_kith({"curriculum", "item-delivery", "--json"});
+  const auto ran = run_kith({"lesson", "item-delivery", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto document = Json::parse(ran.out);
   EXPECT_EQ(document.at("schema"), "kith.curriculum/1");
@@ -71,11 +71,14 @@ TEST(CurriculumCommand, PrintsBoardsReasonsAndTestsAsJson) {
 }
 
 TEST(CurriculumCommand, PrintsTheSameWithTheSameSeed) {
-  const auto first = run_kith({"curriculum", "item-delivery", "--seed", "5"});
+  const auto first = run_kith({"lesson", "item-delivery", "--seed", "5"});
+  const auto before = run_kith({"curriculum", "item-delivery", "--seed", "5"});  // its name in earlier versions
+  EXPECT_EQ(before.out, first.out);
+  EXPECT_THAT(before.err, HasSubstr("is called 'kith lesson' now"));
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, AllOf(HasSubstr("1. "), HasSubstr("Demonstration 1: world "),
                                HasSubstr("they differ from step "), HasSubstr("Test 1: world ")));
-  EXPECT_EQ(run_kith({"curriculum", "item-delivery", "--seed", "5"}).out, first.out);
+  EXPECT_EQ(run_kith({"lesson", "item-delivery", "--seed", "5"}).out, first.out);
 }
 
 // A robot that has one way to go.
@@ -92,10 +95,10 @@ std::string write_road(const Scratch& scratch) {
 TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
   const Scratch scratch;
   write_road(scratch);
-  const auto ran = run_kith({"curriculum", scratch / "road.toml"});
+  const auto ran = run_kith({"lesson", scratch / "road.toml"});
   EXPECT_EQ(ran.code, 4);
   EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
-  const auto json = run_kith({"curriculum", scratch / "road.toml", "--json"});
+  const auto json = run_kith({"lesson", scratch / "road.toml", "--json"});
   EXPECT_EQ(json.code, 4);
   EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1101");
 }
@@ -120,7 +123,7 @@ TEST(StudyCommand, FailsWithFourAndLeavesNothingWhereNothingCanBeTaught) {
 TEST(WhatCanBeShown, IsTheSameForCurriculumTeachAndStudy) {
   const Scratch scratch;
   std::ofstream{scratch / "open.toml"} << kToAndFro;
-  const auto lesson = run_kith({"curriculum", scratch / "open.toml"});
+  const auto lesson = run_kith({"lesson", scratch / "open.toml"});
   EXPECT_EQ(lesson.code, 0) << lesson.err;
   EXPECT_THAT(lesson.out, HasSubstr("right and step twice together cost something"));
   const auto taught = run_kith({"teach", scratch / "open.toml", "--group", "NP", "--strategy", "common"});
@@ -134,7 +137,7 @@ TEST(WhatCanBeShown, IsTheSameForCurriculumTeachAndStudy) {
 
 TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {
   const Scratch scratch;
-  const auto ran = run_kith({"curriculum", "item-delivery", "-o", scratch / "lesson.html"});
+  const auto ran = run_kith({"lesson", "item-delivery", "-o", scratch / "lesson.html"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.out, "");
   EXPECT_THAT(ran.err, HasSubstr("lesson.html"));
@@ -142,12 +145,12 @@ TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {
   EXPECT_THAT(page, AllOf(HasSubstr("<title>What will the robot do?</title>"),
                           HasSubstr("\"schema\":\"kith.curriculum/1\""), HasSubstr("default-src 'none'")));
   EXPECT_EQ(page.find("/*KITH_"), std::string::npos);
-  EXPECT_EQ(run_kith({"curriculum", "item-delivery", "-o", "-"}).out, page);
-  EXPECT_EQ(run_kith({"curriculum", "item-delivery", "-o", "-", "--json"}).code, 2);
+  EXPECT_EQ(run_kith({"lesson", "item-delivery", "-o", "-"}).out, page);
+  EXPECT_EQ(run_kith({"lesson", "item-delivery", "-o", "-", "--json"}).code, 2);
 }
 
 TEST(CurriculumCommand, NamesAllThatASymbolPutsOnACell) {
-  const auto document = Json::parse(run_kith({"curriculum", "item-delivery", "--json"}).out);
+  const auto document = Json::parse(run_kith({"lesson", "item-delivery", "--json"}).out);
   for (const auto& entry : document["domain"]["legend"]) {
     EXPECT_EQ(entry.at("kind"), entry.at("parts").at(0).at("kind"));
     if (entry["symbol"] == "S") {
@@ -294,7 +297,7 @@ TEST(Init, WritesWhatRunsAsItIs) {
     EXPECT_EQ(valid.code, 0) << valid.err;
     EXPECT_EQ(valid.err.find("W1602") != std::string::npos, name == "human-study") << valid.err;
     EXPECT_EQ(run_kith({"validate", "--strict", domain, study}).code, name == "human-study" ? 3 : 0);
-    EXPECT_EQ(run_kith({"curriculum", domain}).code, 0);
+    EXPECT_EQ(run_kith({"lesson", domain}).code, 0);
     const auto taught = run_kith({"study", study, "-o", scratch / "results", "--set", "replicates=1", "--quiet"});
     EXPECT_EQ(taught.code, 0) << taught.err;
     EXPECT_TRUE(std::filesystem::exists(scratch / "results/tables/teams.csv"));
@@ -339,11 +342,11 @@ TEST(Texts, FitEightyColumns) {
                                                  {"explain", "beliefs"},
                                                  {"teach", "item-delivery", "--group", "NNP", "--strategy", "joint"},
                                                  {"teach", "skateboard", "--group", "NP"},
-                                                 {"curriculum", "item-delivery"},
+                                                 {"lesson", "item-delivery"},
                                                  {"ask", "item-delivery", "when does it recharge?"}};
-  for (const std::string name : {"init",  "validate", "inspect", "curriculum", "ask",     "find",    "teach",
-                                 "study", "status",   "verify",  "merge",      "explain", "analyze", "report",
-                                 "fit",   "doctor",   "power",   "session",    "serve",   "audit"}) {
+  for (const std::string name :
+       {"init",  "validate", "inspect", "lesson", "ask", "find",   "teach", "study",   "status", "verify",
+        "merge", "explain",  "analyze", "report", "fit", "doctor", "power", "session", "serve",  "audit"}) {
     commands.push_back({"help", name});
   }
   for (const auto& command : commands) {
@@ -371,7 +374,7 @@ TEST(InspectJson, TellsStartsApartAndGivesEveryMap) {
   const auto& map = document.at("maps").at(63);
   const auto& first = document.at("demos").at(0).at("start").at("robot");
   EXPECT_LE(first.at(1), map.size());
-  const auto lesson = Json::parse(run_kith({"curriculum", "item-delivery", "--json"}).out);
+  const auto lesson = Json::parse(run_kith({"lesson", "item-delivery", "--json"}).out);
   const auto& shown = lesson.at("components").at(0).at("demonstrations").at(0);
   const auto& frame = shown.at("frames").at(0);
   bool found = false;

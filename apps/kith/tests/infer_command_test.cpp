@@ -21,7 +21,7 @@ TEST(InferCommand, WritesADomainThatEverythingElseTeaches) {
                                HasSubstr("in the snow at d3: it does left"), HasSubstr("would have to tell apart")));
   EXPECT_THAT(run_kith({"validate", file}).out, HasSubstr("39 start states"));
   for (const auto& command : {std::vector<std::string>{"inspect", file},
-                              {"curriculum", file},
+                              {"lesson", file},
                               {"teach", file, "--group", "NP", "--strategy", "joint"}}) {
     const auto said = run_kith(command);
     EXPECT_EQ(said.code, 0) << said.err;

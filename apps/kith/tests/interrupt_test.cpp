@@ -121,7 +121,7 @@ TEST(InterruptSlow, EndsEveryCommandOnALargeMap) {
   const std::vector<std::vector<std::string>> commands{{"validate", map},
                                                        {"validate", study},
                                                        {"inspect", map, "--show", "bec,kc,demos,tests,counterfactuals"},
-                                                       {"curriculum", map},
+                                                       {"lesson", map},
                                                        {"ask", map, "what do you care about?"},
                                                        {"find", map},
                                                        {"teach", map, "--group", "NN"},

@@ -1,4 +1,4 @@
-// kith curriculum, study and audit for people who know the robot as it was before an update.
+// kith lesson, study and audit for people who know the robot as it was before an update.
 #include <gtest/gtest.h>
 
 #include "run_kith.hpp"
@@ -9,19 +9,19 @@ namespace {
 std::string updated(const std::string& name) { return std::string{KITH_SOURCE_DIR} + "/tests/updates/" + name; }
 
 TEST(KnowingCommand, PrintsWhatIsNewAndWhatIsNot) {
-  const auto ran = run_kith({"curriculum", updated("rubble_free.toml"), "--knowing", "item-delivery"});
+  const auto ran = run_kith({"lesson", updated("rubble_free.toml"), "--knowing", "item-delivery"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("The robot has been updated. Now crossing rubble is better than 2 steps."));
   EXPECT_THAT(ran.out, HasSubstr("it is as before the update"));
   const auto document =
-      Json::parse(run_kith({"curriculum", updated("rubble_free.toml"), "--knowing", "item-delivery", "--json"}).out);
+      Json::parse(run_kith({"lesson", updated("rubble_free.toml"), "--knowing", "item-delivery", "--json"}).out);
   EXPECT_EQ(document.at("update").at("now"), Json::array({"crossing rubble is better than 2 steps"}));
 
-  const auto same = run_kith({"curriculum", "item-delivery", "--knowing", updated("unchanged.toml")});
+  const auto same = run_kith({"lesson", "item-delivery", "--knowing", updated("unchanged.toml")});
   EXPECT_EQ(same.code, 0) << same.err;
   EXPECT_THAT(same.out, AllOf(HasSubstr("it decides as before"), Not(HasSubstr("Demonstration"))));
 
-  const auto other = run_kith({"curriculum", "item-delivery", "--knowing", "two-goals"});
+  const auto other = run_kith({"lesson", "item-delivery", "--knowing", "two-goals"});
   EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.err, HasSubstr("weighs other features"));
 }

@@ -20,7 +20,7 @@ void expect_refusal(const Ran& ran, int code, const std::string& id, const std::
 TEST(Limits, ACurriculumOfALargeMapSaysHowMuchMemoryItNeeds) {
   const Scratch scratch;
   std::ofstream{scratch / "map.toml"} << large_map(150);
-  const std::vector<std::string> command{"curriculum", scratch / "map.toml"};
+  const std::vector<std::string> command{"lesson", scratch / "map.toml"};
   const auto ran = run_kith(command, memory("100M"));
   EXPECT_EQ(ran.code, 4);
   EXPECT_THAT(ran.err, AllOf(HasSubstr("teaching the 22499 states of 'large' needs about 370 MB of memory; "),
@@ -52,7 +52,7 @@ TEST(Limits, AStudyHasAtMostTenMillionTeams) {
 TEST(Limits, ATableHasAnEnd) {
   const auto endless = run_kith({"analyze", "/dev/zero", "--model", "y ~ a"});
   expect_refusal(endless, 3, "E0509", "not UTF-8");
-  for (const std::string command : {"inspect", "curriculum", "find", "validate"})
+  for (const std::string command : {"inspect", "lesson", "find", "validate"})
     expect_refusal(run_kith({command, "/dev/zero"}), 3, "E0103", "at most 1048576 are read");
   EXPECT_EQ(run_kith({"fit", "/dev/zero"}).code, 3);
 }

@@ -78,7 +78,7 @@ class Writing : public ::testing::Test {
         {"init", {"init"}, {}, true},
         {"analyze --latex", {"analyze", run(), "--brief", "--latex"}, {}},
         {"report", {"report", run(), "-o"}, {}},
-        {"curriculum", {"curriculum", "two-goals", "-o"}, {}},
+        {"lesson", {"lesson", "two-goals", "-o"}, {}},
     };
   }
   static Ran run_with(const Writer& writer, const std::string& place, bool replaces = false, const RunWith& with = {}) {
