@@ -22,23 +22,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// Everything that planning sees, as text, actions and features by name.
-std::string content_of(const Domain& domain, MdpIndex m = kFirst) {
-  const Mdp& mdp = domain.mdp(m);
-  std::string text;
-  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
-    for (const Choice& choice : mdp.choices(StateIndex{s})) {
-      text += std::to_string(s) + " " + domain.action_names()[choice.action.value()];
-      for (const Outcome& outcome : mdp.outcomes(choice)) {
-        text += ", " + std::to_string(outcome.next.value()) + " " + std::to_string(outcome.probability);
-        for (const double x : mdp.features(outcome)) text += " " + std::to_string(x);
-      }
-      text += "\n";
-    }
-  }
-  return text;
-}
-
 TEST(ExplicitModel, IsReadFromTables) {
   const Domain domain = sound_model(kIceCsv);
   EXPECT_FALSE(domain.map().has_value());
