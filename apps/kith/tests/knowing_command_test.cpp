@@ -36,7 +36,7 @@ TEST(KnowingCommand, SaysWhoStillBelievesInTheOlderRobot) {
   ASSERT_EQ(study.code, 0) << study.err;
   const auto told = run_kith({"audit", run});
   EXPECT_EQ(told.code, 0) << told.err;
-  EXPECT_THAT(told.out, HasSubstr("believe still in"));
+  EXPECT_THAT(told.out, HasSubstr("to believe in the robot as it was before the update"));
   EXPECT_THAT(told.out, HasSubstr("as it was before the update with probability"));
   // The study says what people knew; so can whoever asks.
   EXPECT_EQ(run_kith({"audit", run, "--knowing", "item-delivery"}).out, told.out);

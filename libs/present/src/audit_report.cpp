@@ -121,8 +121,8 @@ std::string older_in_words(const AuditReport& report) {
   for (const auto& person : report.people) {
     if (person.audit.believes_older.value_or(0.0) >= kLikely) who.push_back(person.group + ": " + title_of(person));
   }
-  std::string text = who.empty() ? "Nobody seems to believe" : "These people seem to believe";
-  text += " still in the robot as it was before the update";
+  std::string text = who.empty() ? "Nobody seems to believe" : "These people still seem to believe";
+  text += " in the robot as it was before the update";
   for (std::size_t i = 0; i < who.size(); ++i) text += (i == 0 ? ": " : "; ") + who[i];
   return text + ".";
 }

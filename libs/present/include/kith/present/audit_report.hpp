@@ -52,7 +52,7 @@ struct AuditCounts {
 [[nodiscard]] std::string caution_in_words(const PersonAudit& audit);
 /// "still believes in the robot as it was before the update with probability 83 %"; empty without an update.
 [[nodiscard]] std::string older_in_words(const PersonAudit& audit);
-/// Who more likely than not does: "These people seem to believe still in the robot as it was before the update: ...".
+/// Who more likely than not does: "These people still seem to believe in the robot as it was before the update: ...".
 [[nodiscard]] std::string older_in_words(const AuditReport& report);
 /// Why somebody needs help: lessons do not reach them, or several lessons about a component have not mended what they
 /// think. Empty if nothing says so.
