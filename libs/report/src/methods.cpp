@@ -199,7 +199,7 @@ class Paragraph {
       if (!type.knowing || !is_used(type)) continue;
       say("Learners of the type '" + name_of_type(type) + "' knew the robot before an update, " + type.knowing->name +
           ": their beliefs began in its behaviour equivalence class, with a share of " + shortest(kBeyondKnown) +
-          " spread over the prior.");
+          " beyond it.");
     }
   }
 

@@ -24,7 +24,8 @@ class PriorCover {
   /// cover() is to take them; empty: as they are.
   /// @throws std::invalid_argument if particles is 0.
   /// @param known  a region in the prior that people know: half of the points cover it, with a mass of 1 -
-  /// kBeyondKnown, the others the whole prior.
+  /// kBeyondKnown. Of the others one in d + 1 lies anywhere in the prior; the rest are known weights with another value
+  /// of one feature, as most updates change one thing.
   PriorCover(Cone prior, std::size_t particles, std::span<const std::size_t> axes = {}, std::optional<Cone> known = {});
 
   [[nodiscard]] const Cone& prior() const noexcept { return prior_; }
