@@ -270,7 +270,11 @@ TEST_F(JournalTest, KeepsTheRecordsInTheWholePagesOfATruncatedFile) {
     put(good.substr(0, length));
     const auto journal = opened(identity(40));
     EXPECT_GE(journal.num_done(), length + 4096 < good.size() ? 10U : kMostOfForty) << length;
-    journal.for_each([](std::size_t team, std::string_view bytes) { EXPECT_EQ(bytes, entry(team).bytes); });
+    for (std::size_t team = 1; team <= 40; ++team) {
+      if (journal.done()[team - 1]) {
+        EXPECT_EQ(journal.find(team), entry(team).bytes);
+      }
+    }
   }
 }
 
