@@ -9,9 +9,8 @@
 
 namespace kith::python {
 
-/// The rows of the registries with those that are written in Python: what studies can name. A row's functions are plain
-/// pointers, so each class that is registered gets a slot of a fixed number; a class of the same name takes the place
-/// of the one before.
+/// The rows of the registries with those that are written in Python: what studies can name. A class of the same name
+/// takes the place of the one before.
 class OwnKinds {
  public:
   OwnKinds();
@@ -27,14 +26,14 @@ class OwnKinds {
 
 namespace detail {
 struct StrategySlot {
-  std::string name, description, version;
-  TeamBeliefNeeds needs;
+  std::string name, description, version{};
+  TeamBeliefNeeds needs{};
   PyObject* make = nullptr;  // never released: the interpreter may end before the last use
 };
 struct LearnerSlot {
-  std::string name, description, version;
+  std::string name, description, version{};
   PyObject* make = nullptr;
-  LearnerModel model;
+  LearnerModel model{};
 };
 /// Those in use, in the order of registration. Rows stay where they are for ever.
 [[nodiscard]] std::vector<std::pair<StrategyKind, const StrategySlot*>> own_strategies();

@@ -1,5 +1,6 @@
 // Simulated people written in Python.
-#include <array>
+#include <algorithm>
+#include <deque>
 #include <type_traits>
 #include <utility>
 
@@ -15,9 +16,7 @@ namespace kith::python {
 namespace detail {
 namespace {
 
-constexpr std::size_t kSlots = 32;
-std::array<LearnerSlot, kSlots> slots;
-std::size_t num_slots = 0;
+std::deque<LearnerSlot> learners;  // as own_strategies.cpp keeps its own
 
 constexpr std::size_t kCoverPoints = 1000;
 
@@ -121,10 +120,7 @@ class OwnLearner final : public Learner {
   mutable std::shared_ptr<const ParticleBelief> belief_;  // the last that belief() gave
 };
 
-template <std::size_t I>
-std::unique_ptr<Learner> make_learner(const ParameterValues&, std::span<const double>, const LearnerStart& start,
-                                      RandomStream random) {
-  const auto& slot = slots[I];
+std::unique_ptr<Learner> make_learner(const LearnerSlot& slot, const LearnerStart& start, const RandomStream& random) {
   const auto& cover = start.cover(kCoverPoints);
   auto belief = std::make_shared<const ParticleBelief>(cover, FilterOptions{.particles = kCoverPoints});
   const Lock lock;
@@ -134,39 +130,30 @@ std::unique_ptr<Learner> make_learner(const ParameterValues&, std::span<const do
   });
 }
 
-template <std::size_t... I>
-auto make_of(std::size_t i, std::index_sequence<I...>) {
-  constexpr std::array make{&make_learner<I>...};
-  return make[i];
-}
-
 void register_learner(const std::string& name, const std::string& description, const std::string& version,
                       const py::object& make) {
   if (name.empty()) throw py::value_error{"a learner needs a name"};
   if (find_learner_model(name) != nullptr)
     throw py::value_error{"'" + name + "' is a learner of kith; give yours another name"};
-  std::size_t i = 0;
-  while (i < num_slots && slots[i].name != name) ++i;
-  if (i == kSlots) throw py::value_error{"at most " + std::to_string(kSlots) + " learners of one's own"};
-  auto& slot = slots[i];
-  if (i == num_slots) {
-    slot.name = name;
-    slot.description = description;
+  auto at = std::ranges::find(learners, name, &LearnerSlot::name);
+  if (at == learners.end()) {
+    at = learners.insert(at, {.name = name, .description = description});
+    LearnerSlot& slot = *at;
     slot.model.kind = slot.name;
     slot.model.description = slot.description;
     slot.model.draw = [](const ParameterValues&, RandomStream) { return std::vector<double>{}; };
-    slot.model.make = make_of(i, std::make_index_sequence<kSlots>{});
-    ++num_slots;
+    slot.model.make = [&slot](const ParameterValues&, std::span<const double>, const LearnerStart& start,
+                              RandomStream random) { return make_learner(slot, start, random); };
   }
-  slot.version = version;
-  slot.make = make.inc_ref().ptr();
+  at->version = version;
+  at->make = make.inc_ref().ptr();
 }
 
 }  // namespace
 
 std::vector<const LearnerSlot*> own_learners() {
   std::vector<const LearnerSlot*> rows;
-  for (std::size_t i = 0; i < num_slots; ++i) rows.push_back(&slots[i]);
+  for (const auto& slot : learners) rows.push_back(&slot);
   return rows;
 }
 

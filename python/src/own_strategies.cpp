@@ -1,7 +1,8 @@
-// Strategies written in Python: a slot of the registry, an adapter that calls the Python object, and what that sees of
+// Strategies written in Python: a row of the registry, an adapter that calls the Python object, and what that sees of
 // a session.
-#include <array>
+#include <algorithm>
 #include <chrono>
+#include <deque>
 #include <thread>
 #include <utility>
 
@@ -20,9 +21,7 @@ namespace kith::python {
 namespace detail {
 namespace {
 
-constexpr std::size_t kSlots = 48;
-std::array<StrategySlot, kSlots> slots;  // written with the interpreter's lock, before anybody has the row
-std::size_t num_slots = 0;
+std::deque<StrategySlot> strategies;  // written with the interpreter's lock, before anybody has the row
 
 // A unit of demonstrations, and the belief that it was chosen for.
 struct OwnUnit {
@@ -203,24 +202,14 @@ class OwnStrategy final : public Strategy {
   SharedObject object_;
 };
 
-template <std::size_t I>
-std::unique_ptr<Strategy> make_strategy(const ParameterValues&) {
-  const Lock lock;
-  const auto& slot = slots[I];
-  return OwnStrategy::calling(slot, [&]() -> std::unique_ptr<Strategy> {
-    return std::make_unique<OwnStrategy>(slot, SharedObject{py::handle{slot.make}()});
-  });
-}
-template <std::size_t I>
-TeamBeliefNeeds needs_of(const ParameterValues&) {
-  return slots[I].needs;
-}
-
-template <std::size_t... I>
-StrategyKind kind_of(std::size_t i, std::index_sequence<I...>) {
-  constexpr std::array make{&make_strategy<I>...};
-  constexpr std::array needs{&needs_of<I>...};
-  return {slots[i].name, slots[i].description, needs[i], make[i]};
+StrategyKind kind_of(const StrategySlot& slot) {
+  return {slot.name, slot.description, [&slot](const ParameterValues&) { return slot.needs; },
+          [&slot](const ParameterValues&) {
+            const Lock lock;
+            return OwnStrategy::calling(slot, [&]() -> std::unique_ptr<Strategy> {
+              return std::make_unique<OwnStrategy>(slot, SharedObject{py::handle{slot.make}()});
+            });
+          }};
 }
 
 TeamBeliefNeeds needs_from(const std::vector<std::string>& names) {
@@ -242,16 +231,11 @@ void register_strategy(const std::string& name, const std::string& description, 
   if (name.empty()) throw py::value_error{"a strategy needs a name"};
   if (find_strategy_kind(name) != nullptr)
     throw py::value_error{"'" + name + "' is a strategy of kith; give yours another name"};
-  std::size_t i = 0;
-  while (i < num_slots && slots[i].name != name) ++i;
-  if (i == kSlots) throw py::value_error{"at most " + std::to_string(kSlots) + " strategies of one's own"};
-  auto& slot = slots[i];
-  slot.needs = needs_from(needs);
-  if (i == num_slots) {
-    slot.name = name;  // rows refer to these: they never change
-    slot.description = description;
-    ++num_slots;
-  }
+  auto reads = needs_from(needs);
+  auto at = std::ranges::find(strategies, name, &StrategySlot::name);
+  if (at == strategies.end()) at = strategies.insert(at, {.name = name, .description = description});  // for ever
+  StrategySlot& slot = *at;
+  slot.needs = std::move(reads);
   slot.version = version;
   slot.make = make.inc_ref().ptr();
 }
@@ -260,8 +244,7 @@ void register_strategy(const std::string& name, const std::string& description, 
 
 std::vector<std::pair<StrategyKind, const StrategySlot*>> own_strategies() {
   std::vector<std::pair<StrategyKind, const StrategySlot*>> rows;
-  for (std::size_t i = 0; i < num_slots; ++i)
-    rows.emplace_back(kind_of(i, std::make_index_sequence<kSlots>{}), &slots[i]);
+  for (const auto& slot : strategies) rows.emplace_back(kind_of(slot), &slot);
   return rows;
 }
 

@@ -64,8 +64,9 @@ struct LearnerModel {
   /// Draws one person: a number per trait. @throws kith::Error (kInfeasible) if no person meets the parameters.
   std::vector<double> (*draw)(const ParameterValues& values, RandomStream random) = nullptr;
   /// The person with these traits, before the first component.
-  std::unique_ptr<Learner> (*make)(const ParameterValues& values, std::span<const double> traits,
-                                   const LearnerStart& start, RandomStream random) = nullptr;
+  std::function<std::unique_ptr<Learner>(const ParameterValues& values, std::span<const double> traits,
+                                         const LearnerStart& start, RandomStream random)>
+      make{};
   /// The person in a few words, for transcripts. May be null; then the traits are listed.
   std::string (*describe)(const ParameterValues& values, std::span<const double> traits) = nullptr;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -86,8 +87,8 @@ struct TeamBeliefNeeds {
 struct StrategyKind {
   std::string_view name;         ///< As in files and on the command line.
   std::string_view description;  ///< What it does: "teach for ...".
-  TeamBeliefNeeds (*needs)(const ParameterValues& parameters);
-  std::unique_ptr<Strategy> (*make)(const ParameterValues& parameters);
+  std::function<TeamBeliefNeeds(const ParameterValues& parameters)> needs;
+  std::function<std::unique_ptr<Strategy>(const ParameterValues& parameters)> make;
   std::span<const Parameter> parameters{};  ///< Keys of its table in a study file.
   bool needs_truth = false;  ///< Whether it reads TeachingView::truth, so that it can teach simulated people only.
   /// Whether it orders what it teaches itself, unless Scaffold::kFeatures is asked for, in short lessons.
