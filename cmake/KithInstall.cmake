@@ -53,6 +53,9 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
+# For kith analyze --model.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
+  "r-base-core, r-cran-lme4, r-cran-lmertest, r-cran-emmeans, r-cran-car, r-cran-mass, r-cran-ordinal, r-cran-survival, r-cran-jsonlite")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS

@@ -19,7 +19,8 @@ packages_for_lesson=(emscripten xz-utils)  # LLVM for WebAssembly; what packs th
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
   firefox-esr slowhttptest
   mypy python3-matplotlib python3-pip python3-setuptools python3-wheel
-  r-base-core r-cran-car r-cran-emmeans r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-survival)
+  r-base-core r-cran-car r-cran-emmeans r-cran-jsonlite r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-ordinal
+  r-cran-survival)
 
 # is_installed NAME: as a package; or, where people often have another source than Debian, as a command.
 is_installed() {

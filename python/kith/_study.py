@@ -227,11 +227,10 @@ class Run:
         """One of its teams, taught again step by step."""
         return replay(self.folder, number)
 
-    def analyze(self, model: str = "", *, table: str = "teams", alpha: float = 0.05, correction: str = "bonferroni",
-                permutations: int = 999, seed: int = 1, contrasts: Sequence[str] = (), by: Sequence[str] = ()) -> Analysis:
-        """The analyses of a study, or a model of one of its tables ("knowledge ~ strategy*composition")."""
-        return Analysis(json.loads(_core.analyze(str(self.folder), model, table, alpha, correction, permutations, seed,
-                                                 list(contrasts), list(by))))
+    def analyze(self, *, alpha: float = 0.05, correction: str = "bonferroni", contrasts: Sequence[str] = (),
+                by: Sequence[str] = ()) -> Analysis:
+        """The analyses of a study; models of your own are for `kith analyze --model`, which asks R, or statsmodels."""
+        return Analysis(json.loads(_core.analyze(str(self.folder), alpha, correction, list(contrasts), list(by))))
 
     def report(self, path: Union[str, os.PathLike[str], None] = None) -> Report:
         """Writes figures, tables and methods as one page that works offline; default: report.html in the folder."""

@@ -23,7 +23,6 @@
 #include "kith/store/session_audit.hpp"
 #include "kith/study/observed_team.hpp"
 #include "kith/study_design/power.hpp"
-#include "kith/table/codebook.hpp"
 #include "own_kinds.hpp"
 #include "waiting.hpp"
 
@@ -38,35 +37,17 @@ Correction correction_of(const std::string& word) {
   throw py::value_error{"correction must be 'bonferroni', 'holm', 'fdr' or 'none', not '" + word + "'"};
 }
 
-Analysis analyzed(const std::string& folder, const std::string& model, const std::string& table,
-                  const AnalysisOptions& options) {
-  if (model.empty()) return analyze_run(folder, options);
-  const auto run = PublishedRun::open(folder);
-  const auto file = "tables/" + table + ".csv";
-  auto data = Dataset::parse(run.read(file), (run.folder() / file).string());
-  for (const auto& one : read_codebook(run.read("tables/codebook.json"), "codebook.json")) {
-    if (one.file == table + ".csv") data.describe(one);
-  }
-  return analyze_table(data, {.formula = model}, options);
-}
-
-std::string analyze(const std::string& folder, const std::string& model, const std::string& table, double alpha,
-                    const std::string& correction, std::size_t permutations, std::uint64_t seed,
+std::string analyze(const std::string& folder, double alpha, const std::string& correction,
                     const std::vector<std::string>& contrasts, const std::vector<std::string>& by) {
   if (!(alpha >= 1e-6) || alpha > 1.0 - 1e-6) throw py::value_error{"alpha must be above 0 and below 1"};
-  constexpr std::size_t kMostPermutations = 1'000'000;
-  if (permutations < 99 || permutations > kMostPermutations)
-    throw py::value_error{"permutations must be 99 to a million"};
   AnalysisOptions options;
   options.alpha = alpha;
   options.correction = correction_of(correction);
-  options.permutations = permutations;
-  options.seed = seed;
   options.by = by;
   for (const auto& text : contrasts) options.contrasts.push_back(parse_contrast(text));
-  return wait_for([folder, model, table, options] {
-    const auto analysis = analyzed(folder, model, table, options);
-    Json document{{"schema", "kith.analyze/4"},
+  return wait_for([folder, options] {
+    const auto analysis = analyze_run(folder, options);
+    Json document{{"schema", "kith.analyze/5"},
                   {"subject", analysis.subject},
                   {"alpha", options.alpha},
                   {"notes", analysis.notes},
@@ -241,8 +222,8 @@ std::string power(const std::string& name, const std::string& text, const std::v
 }  // namespace
 
 void bind_results(py::module_& module) {
-  module.def("analyze", &analyze, py::arg("folder"), py::arg("model"), py::arg("table"), py::arg("alpha"),
-             py::arg("correction"), py::arg("permutations"), py::arg("seed"), py::arg("contrasts"), py::arg("by"));
+  module.def("analyze", &analyze, py::arg("folder"), py::arg("alpha"), py::arg("correction"), py::arg("contrasts"),
+             py::arg("by"));
   module.def("report", &report, py::arg("folder"), py::arg("as_page"));
   module.def("fit", &fit, py::arg("logs"), py::arg("answers"), py::arg("types"), py::arg("folds"),
              py::arg("replicates"), py::arg("seed"), py::arg("threads"), py::arg("on_progress"));

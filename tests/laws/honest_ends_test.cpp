@@ -337,9 +337,7 @@ void expect_honest_run(const Atlas& atlas, const StudyReading& reading, const st
   facts.domain = atlas.domain().id();
   run.publish(facts);
   try {
-    AnalysisOptions analysis;
-    analysis.permutations = 19;
-    const auto findings = findings_json(analyze_run(folder, analysis));
+    const auto findings = findings_json(analyze_run(folder, {}));
     EXPECT_FALSE(has_no_number(findings)) << findings;
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInfeasible) << error.what();

@@ -1,17 +1,14 @@
-// Data in which nothing has an effect, in the layout of every table that kith writes: an analysis that nobody told
-// anything but the codebook finds an effect as often as its level says, and hardly more often.
+// The layout of every table that kith writes: by the codebook alone, an analysis knows which rows are of the same group
+// and of the same person, without which it would find effects that do not exist.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "kith/analysis/analysis.hpp"
-#include "kith/analysis/dataset.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/analysis/table_model.hpp"
 #include "kith/store/session_export.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/tables.hpp"
@@ -20,8 +17,6 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kGroups = 10, kMembers = 3, kAnswers = 4;
-// What may differ between rows that a user asks about: groups, people, answers.
-constexpr std::array kFactors{"of_group", "of_person", "of_answer"};
 
 // Whose row it is. People have the same numbers in every group.
 struct Place {
@@ -50,41 +45,38 @@ bool has_answers(const TableDescription& table) {
   });
 }
 
-// The table with a response y, in which groups and people differ, and a factor that decides nothing.
-std::string null_table(const TableDescription& table, std::size_t factor, RandomStream random) {
+// A table of this layout, and whose rows are of the same group and of the same person.
+std::string null_table(const TableDescription& table, std::vector<std::size_t>& groups,
+                       std::vector<std::size_t>& people) {
   std::string text;
   for (const auto& column : table.columns) text += column.name + ",";
-  text += "factor,y\n";
-  std::size_t drawn = 0;  // each of the two occurs
-  const auto a_or_b = [&] {
-    const bool is_a = drawn < 2 ? drawn == 0 : uniform01(random) < 0.5;
-    ++drawn;
-    return is_a ? "a" : "b";
-  };
+  text += "y\n";
   for (std::size_t group = 0; group < kGroups; ++group) {
-    const double of_group = standard_normal(random);
-    std::string level = group % 2 == 0 ? "a" : "b";
     for (std::size_t member = 0; member < (tells_people_apart(table) ? kMembers : 1); ++member) {
-      const double of_person = 1.5 * standard_normal(random);
-      if (factor == 1) level = a_or_b();
       for (std::size_t answer = 0; answer < (has_answers(table) ? kAnswers : 1); ++answer) {
-        if (factor == 2) level = a_or_b();
         for (const auto& column : table.columns) text += cell_of(column.name, {group, member, answer}) + ",";
-        text += level + "," + std::to_string(of_group + of_person + standard_normal(random)) + "\n";
+        text += std::to_string(answer) + "\n";
+        groups.push_back(group);
+        people.push_back(tells_people_apart(table) ? group * kMembers + member : group);
       }
     }
   }
   return text;
 }
 
-bool is_significant(const TableDescription& table, std::size_t factor, RandomStream random) {
-  auto data = Dataset::parse(null_table(table, factor, std::move(random)), table.file);
-  data.describe(table);
-  AnalysisOptions options;
-  options.permutations = 19;
-  const auto analysis = analyze_table(data, {.formula = "y ~ factor"}, options);
-  const auto& tests = analysis.findings.front().tests;
-  return !tests.empty() && tests.front().tests.front().p.value_or(1.0) < 0.05;
+// Which rows are alike in these columns, "group:member".
+std::vector<std::size_t> rows_alike(const Dataset& data, const std::string& identifier) {
+  std::vector<std::string> keys(data.num_rows());
+  for (std::size_t begin = 0; begin <= identifier.size();) {
+    const auto end = std::min(identifier.find(':', begin), identifier.size());
+    const auto& cells = data.cells(identifier.substr(begin, end - begin));
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] += cells[i].value_or("") + ":";
+    begin = end + 1;
+  }
+  std::map<std::string, std::size_t> known;
+  std::vector<std::size_t> codes;
+  for (const auto& key : keys) codes.push_back(known.emplace(key, known.size()).first->second);
+  return codes;
 }
 
 std::vector<TableDescription> all_tables() {
@@ -113,8 +105,8 @@ estimates = true
   return tables;
 }
 
-// In tables that differ in what tells their rows apart; others are analysed alike.
-void expect_few_effects(std::size_t each, RandomStream random) {
+// What repeats in a table, groups and people, is a random intercept of a model of it.
+TEST(NullData, HasIdentifiersOfGroupsAndPeople) {
   std::set<std::set<std::string>> known;
   for (const auto& table : all_tables()) {
     for (const auto& column : table.columns)
@@ -123,25 +115,19 @@ void expect_few_effects(std::size_t each, RandomStream random) {
     for (const auto& column : table.columns)
       if (!cell_of(column.name, {}).empty()) layout.insert(column.name);
     if (layout.empty() || !known.insert(layout).second) continue;
-    std::size_t significant = 0, asked = 0;
-    for (std::size_t factor = 0; factor < kFactors.size(); ++factor) {
-      if (factor == 1 && !tells_people_apart(table)) continue;
-      std::size_t of_factor = 0;
-      for (std::size_t i = 0; i < each; ++i)
-        of_factor += is_significant(table, factor, random.split(table.file).split(factor).split(i)) ? std::size_t{1}
-                                                                                                    : std::size_t{0};
-      // By chance more than a fifth of a few is rare, more than a tenth of many.
-      EXPECT_LE(of_factor, each / (each < 100 ? 5 : 10)) << table.file << ": " << kFactors.at(factor);
-      significant += of_factor;
-      asked += each;
-    }
-    // Of 60 at 5 %, more than 10 are as rare as 1 in 10,000.
-    EXPECT_LE(significant, asked / (each < 100 ? 6 : 10)) << table.file << ": " << significant << " of " << asked;
+
+    std::vector<std::size_t> groups, people;
+    auto data = Dataset::parse(null_table(table, groups, people), table.file);
+    data.describe(table);
+    std::set<std::vector<std::size_t>> found;
+    for (const auto& identifier : identifiers_of(data, {})) found.insert(rows_alike(data, identifier));
+    const auto repeats = [&](const std::vector<std::size_t>& codes) {
+      return *std::max_element(codes.begin(), codes.end()) + 1 < codes.size();
+    };
+    if (repeats(groups)) EXPECT_TRUE(found.contains(groups)) << table.file << ": groups";
+    if (repeats(people) && people != groups) EXPECT_TRUE(found.contains(people)) << table.file << ": people";
   }
 }
-
-TEST(NullData, HasFewEffectsInEveryTable) { expect_few_effects(20, RandomStream{1}); }
-TEST(NullDataSlow, HasFewEffectsInEveryTable) { expect_few_effects(400, RandomStream{2}); }
 
 }  // namespace
 }  // namespace kith

@@ -9,10 +9,12 @@
 #include <set>
 #include <span>
 
+#include "analysis_in_r.hpp"
 #include "command.hpp"
+#include "embedded.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/exports.hpp"
-#include "kith/analysis/r_script.hpp"
+#include "kith/analysis/table_model.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
@@ -38,15 +40,13 @@ struct AnalyzeOptions {
   bool ordinal = false;                  ///< The response is a rating, of which only the order counts.
   std::string latex;                     ///< File for all findings as LaTeX; empty: none.
   std::string csv;                       ///< Folder for every table as CSV; empty: none.
-  std::string r;                         ///< Folder for data and a script that repeats the analysis in R; empty: none.
+  std::string r;                         ///< Folder for data, plan and script of the analysis in R; empty: none.
   std::vector<std::string> contrasts;    ///< "NAME [FACTOR]: TERMS", see parse_contrast().
   std::vector<std::string> by;           ///< Factors at each level of which others are compared.
   std::string smallest_effect;           ///< "0.5" or "d=0.3"; empty: no tests of equivalence.
   std::string codebook;                  ///< File that describes the columns; empty: codebook.json beside the table.
   double alpha = 0.05;
   std::string correction = "bonferroni";
-  std::uint64_t seed = 1;
-  std::size_t permutations = 999;
   bool brief = false;  ///< A few lines in words.
   bool all = false;    ///< Every finding of a run with all of its tables.
 };
@@ -58,11 +58,8 @@ AnalysisOptions analysis_options(const AnalyzeOptions& options) {
                       : options.correction == "fdr"  ? Correction::kFdr
                       : options.correction == "none" ? Correction::kNone
                                                      : Correction::kBonferroni;
-  result.seed = options.seed;
-  result.permutations = options.permutations;
   for (const auto& text : options.contrasts) result.contrasts.push_back(parse_contrast(text));
   result.by = options.by;
-  if (!options.smallest_effect.empty()) result.smallest_effect = parse_smallest_effect(options.smallest_effect);
   return result;
 }
 
@@ -132,14 +129,21 @@ Analysis analysis_of(const AnalyzeOptions& options) {
                          .identifiers = options.identifiers,
                          .independent = options.independent};
   if (!options.observed.empty()) question.observed = options.observed;
+  if (!options.smallest_effect.empty()) question.smallest_effect = parse_smallest_effect(options.smallest_effect);
   const auto data = described_dataset_of(options).where(filters);
-  auto analysis = analyze_table(data, question, analysis_options(options));
   if (!options.r.empty()) {
-    const auto project = r_project(data, question, analysis_options(options));
-    write_texts(options.r,
-                {{"data.csv", project.data}, {"codebook.json", project.codebook}, {"analysis.R", project.script}});
+    write_texts(options.r, {{"data.csv", table_csv(data)},
+                            {"plan.json", table_plan(data, question, analysis_options(options))},
+                            {"analysis.R", std::string{detail::kAnalysisScript}}});
   }
-  return analysis;
+  auto analysis = analyze_in_r_or_alone(data, question, analysis_options(options));
+  if (!analysis) {
+    throw Error{
+        ErrorKind::kInfeasible,
+        "this model needs R" + (options.r.empty() ? std::string{} : ", for which " + options.r + " has all files"),
+        Advice{std::string{"install it: "} + kInstallR}};
+  }
+  return *std::move(analysis);
 }
 
 // The words of a head on lines no wider than `width`, where they fit.
@@ -222,7 +226,7 @@ std::string left_text(std::span<const Finding* const> left, std::size_t num_note
 std::string page_text(const Analysis& analysis, const AnalyzeOptions& options, const Console& console,
                       std::string text) {
   const auto num_lines = [](const std::string& lines) { return std::count(lines.begin(), lines.end(), '\n'); };
-  const bool compares = !options.contrasts.empty() || !options.by.empty() || !options.smallest_effect.empty();
+  const bool compares = !options.contrasts.empty() || !options.by.empty();
   std::vector<const Finding*> all;
   for (const auto& finding : analysis.findings) all.push_back(&finding);
   const auto others = std::ranges::stable_partition(all, [](const auto* one) { return is_on_the_page(*one); });
@@ -267,12 +271,10 @@ std::string page_text(const Analysis& analysis, const AnalyzeOptions& options, c
 }
 
 Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
-  return {{"schema", "kith.analyze/4"},
+  return {{"schema", "kith.analyze/5"},
           {"subject", analysis.subject},
           {"alpha", options.alpha},
           {"correction", options.correction},
-          {"permutations", options.permutations},
-          {"seed", options.seed},
           {"notes", analysis.notes},
           {"findings", Json::parse(findings_json(analysis))},
           {"not_analysed", analysis.not_analysed}};
@@ -280,8 +282,9 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
 
 void declare(OptionList& list, AnalyzeOptions& options) {
   list.text("input", options.input, "DIR|CSV", "Run folder, CSV file, or '-' for standard input").required();
-  const auto model = list.text("--model", options.model, "FORMULA",
-                               "Response and factors, such as 'knowledge ~ strategy*composition'");
+  const auto model =
+      list.text("--model", options.model, "FORMULA",
+                "A model for R: response, factors and covariates, such as 'knowledge ~ strategy*age + (1|team)'");
   list.word("--table", options.table, "NAME",
             {"teams", "learners", "periods", "responses", "demonstrations", "progress"},
             "Table of the run folder to which the model applies")
@@ -308,19 +311,17 @@ void declare(OptionList& list, AnalyzeOptions& options) {
              "Compare the levels of other factors at each level of this one (may be repeated)");
   list.text("--smallest-effect", options.smallest_effect, "X",
             "Smallest difference that matters, in units of the response or as d=0.3: tests whether differences are "
-            "smaller");
+            "smaller")
+      .needs(model);
   list.text("--latex", options.latex, "FILE", "Write all findings and tables to this file as LaTeX");
   list.text("--csv", options.csv, "DIR", "Write every table to this folder as CSV");
-  list.text("--r", options.r, "DIR", "Write data, codebook and an R script that repeats the analysis to this folder")
-      .needs(model);
+  list.text("--r", options.r, "DIR", "Write data, plan and the R script of the analysis to this folder").needs(model);
   auto brief = list.flag("--brief", options.brief, "The findings in words, in at most 25 lines");
   list.flag("--all", options.all, "Of a run every finding, with all notes and tables").excludes(brief);
   // Far below 10^-6 and as near to 1 there are no quantiles any more.
   list.number("--alpha", options.alpha, "P", {1e-6, 1.0 - 1e-6}, "Significance level; intervals use 1 - alpha");
   list.word("--correct", options.correction, "HOW", {"bonferroni", "holm", "fdr", "none"},
             "Correction for families of tests: compositions, planned contrasts");
-  list.integer("--permutations", options.permutations, {99, 1'000'000}, "Permutations of permutation tests");
-  list.integer("--seed", options.seed, {}, "Seed of permutations");
   list.json();
 }
 
@@ -350,8 +351,8 @@ int run(const AnalyzeOptions& options, Console& console) {
 void add_analyze(Commands& commands) {
   commands.add<AnalyzeOptions>(
       "analyze", "Analyse the results of a study, or test a model on any table",
-      {"kith analyze results/paper", "kith analyze people.csv --model 'knowledge ~ strategy*composition'"}, declare,
-      run);
+      {"kith analyze results/paper", "kith analyze people.csv --model 'knowledge ~ strategy*composition + (1|team)'"},
+      declare, run);
 }
 
 }  // namespace kith::cli

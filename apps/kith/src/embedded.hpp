@@ -15,6 +15,9 @@ extern const std::string_view kHumanStudyReadme;
 extern const std::string_view kConsentTemplate;
 extern const std::string_view kTrialsTemplate;
 
+// What R runs for `kith analyze --model`.
+extern const std::string_view kAnalysisScript;
+
 // The pages that show a report and a curriculum, made from web/; empty if kith was built without pages.
 extern const std::string_view kReportPage;
 extern const std::string_view kLessonPage;

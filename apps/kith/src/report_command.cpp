@@ -3,6 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "analysis_in_r.hpp"
 #include "command.hpp"
 #include "embedded.hpp"
 #include "kith/core/baseline.hpp"
@@ -80,6 +81,9 @@ void declare(OptionList& list, ReportCommandOptions& options) {
 int run(const ReportCommandOptions& options, Console& console) {
   Steps steps{console};
   ReportOptions report;
+  report.test_model = [](const Dataset& data, const ModelQuestion& question) {
+    return analyze_in_r_or_alone(data, question, {});
+  };
   report.on_step = [&](std::string_view step) { steps.show(step); };
   auto document = build_report(options.folder, report);
   if (options.runs) {

@@ -88,7 +88,6 @@ TEST(Limits, OfNumbersOnTheCommandLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
       {{"study", "quick", "-o", "x", "-j", "1000000"}, "--threads must be an integer from 1 to 1024"},
       {{"study", "quick", "-o", "x", "--shard", "1/1000001"}, "--shard must be I/N"},
-      {{"analyze", "x", "--permutations", "1000001"}, "--permutations must be an integer from 99 to 1000000"},
       {{"power", "quick", "--pool", "1000001"}, "--pool must be an integer from 4 to 1000000"},
       {{"power", "quick", "--draws", "1000001"}, "--draws must be an integer from 10 to 1000000"},
       {{"power", "quick", "--studies", "100001"}, "--studies must be an integer from 2 to 100000"},

@@ -73,7 +73,6 @@ class Writing : public ::testing::Test {
         {"session export", {"session", "export", session(), "-o"}, {}, true, yes},
         {"session salvage", {"session", "salvage", session(), "-o"}, {}, true},
         {"analyze --csv", {"analyze", run(), "--brief", "--csv"}, {}, true},
-        {"analyze --r", {"analyze", run(), "--model", "periods ~ strategy", "--r"}, {}, true},
         {"inspect --svg", {"inspect", "two-goals", "--svg"}, {}, true},
         {"init", {"init"}, {}, true},
         {"analyze --latex", {"analyze", run(), "--brief", "--latex"}, {}},

@@ -57,20 +57,5 @@ BENCHMARK(BM_StudyOfTheSamePeople)->Arg(300)->Arg(20'000)->Unit(benchmark::kMill
 void BM_StudyOfOtherPeople(benchmark::State& state) { analyse_study(state, false); }
 BENCHMARK(BM_StudyOfOtherPeople)->Arg(300)->Arg(20'000)->Unit(benchmark::kMillisecond);
 
-// What does a mixed model of a table cost, with reading it? 60 000 learners of 20 000 teams.
-void BM_TableOfLearners(benchmark::State& state) {
-  std::string text = "strategy,team,member,type,p_bec\n";
-  RandomStream random{32};
-  for (std::int64_t team = 0; team < state.range(0); ++team) {
-    const double common = uniform01(random);
-    for (int member = 1; member <= 3; ++member)
-      text += fmt::format("s{},{},{},{},{}\n", team % 4, team, member, member % 2 == 0 ? "N" : "P",
-                          common + uniform01(random));
-  }
-  for (auto _ : state)
-    benchmark::DoNotOptimize(analyze_table(Dataset::parse(text, "learners.csv"), {"p_bec ~ strategy*type"}, {}));
-}
-BENCHMARK(BM_TableOfLearners)->Arg(240)->Arg(20'000)->Unit(benchmark::kMillisecond);
-
 }  // namespace
 }  // namespace kith

@@ -1,5 +1,7 @@
 #include "kith/analysis/dataset.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -48,6 +50,9 @@ std::string listed(const std::vector<std::string>& names) {
     list += (i == 0 ? "" : ", ") + shortened(names[i]);
   return names.size() <= kMostListed ? list : list + " and " + std::to_string(names.size() - kMostListed) + " more";
 }
+
+// "1e+200": the power of ten next to a value.
+std::string power_of_ten(double value) { return fmt::format("{:.0e}", std::pow(10.0, std::round(std::log10(value)))); }
 
 }  // namespace
 
@@ -115,6 +120,12 @@ std::size_t Dataset::index_of(std::string_view column) const {
 
 const std::vector<std::optional<std::string>>& Dataset::cells(std::string_view column) const {
   return cells_[index_of(column)];
+}
+
+std::optional<std::string> Dataset::with_points(std::string_view column, std::size_t row) const {
+  const auto& cell = cells(column).at(row);
+  if (!cell || !decimal_comma_ || truth_of(*cell)) return cell;
+  return number_of(*cell, true) ? with_decimal_point(*cell) : cell;
 }
 
 std::vector<std::optional<double>> Dataset::numbers(std::string_view column) const {
@@ -266,6 +277,28 @@ Dataset Dataset::select(const std::vector<std::size_t>& rows) const {
     for (const auto row : rows) part.cells_[c].push_back(cells_[c][row]);
   }
   return part;
+}
+
+void check_sizes(const Dataset& data, const std::string& column) {
+  constexpr double kSmallest = 1e-100, kLargest = 1e100;  // of the largest value
+  const auto numbers = data.numbers(column);
+  double largest = 0.0;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double size = std::abs(numbers[i].value_or(0.0));
+    if (size <= largest) continue;
+    largest = size;
+    row = i;
+  }
+  if (largest == 0.0 || (largest >= kSmallest && largest <= kLargest)) return;
+  throw Error{
+      {Diagnostic{.id = "E0911",
+                  .message = fmt::format("{:g} in column '{}' is too {} for a variance to be computed", *numbers[row],
+                                         column, largest > kLargest ? "large" : "small"),
+                  .file = data.file(),
+                  .line = data.line(row),
+                  .column = 1,
+                  .hint = fmt::format("divide the column by {}, which changes no test", power_of_ten(largest))}}};
 }
 
 }  // namespace kith

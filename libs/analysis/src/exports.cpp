@@ -64,7 +64,7 @@ bool is_stated(const ComparisonFamily& family) {
   const bool is_asked = family.kind == ComparisonFamily::Kind::kPrimary ||
                         family.kind == ComparisonFamily::Kind::kPlanned ||
                         family.kind == ComparisonFamily::Kind::kAlone;
-  return is_asked && family.by.empty() && family.scale == ComparisonFamily::Scale::kDifference;
+  return is_asked && family.by.empty();
 }
 
 // A difference with its interval and test.
@@ -213,7 +213,8 @@ std::string latex_text(const Analysis& analysis, double alpha) {
   for (const auto& note : analysis.notes) text += "% " + note + "\n";
   for (const auto& finding : analysis.findings) {
     text += fmt::format("\n\\section*{{{}}}\n{}\n", latex_escaped(finding.title()), latex_escaped(finding.sentence));
-    if (const auto results = results_paragraph(finding, alpha); !results.empty())
+    if (const auto results = finding.results.empty() ? results_paragraph(finding, alpha) : finding.results;
+        !results.empty())
       text += "\n" + latex_escaped(results) + "\n";
     for (const auto& warning : finding.warnings) text += "\n\\noindent Note: " + latex_escaped(warning) + ".\n";
     for (const auto& table : finding.tables) text += "\n" + latex_table(table);

@@ -6,38 +6,8 @@
 #include <cmath>
 
 #include "kith/stats/effect_intervals.hpp"
-#include "kith/stats/formula.hpp"
-#include "kith/stats/resampling.hpp"
 
 namespace kith {
-namespace {
-
-// The rank-based p-values; those of a single factor are Kruskal and Wallis's.
-std::vector<Estimable<double>> rank_p_values(const ModelData& data) {
-  std::vector<Estimable<double>> p(
-      data.terms.size(), Estimable<double>::impossible("aligned ranks need every interaction of at most four factors"));
-  if (data.factors.size() == 1 && data.terms.size() == 1) {
-    const auto test = kruskal_wallis(data.values, data.factors.front());
-    p[0] = test ? Estimable<double>{test->p} : Estimable<double>::impossible(test.reason());
-    return p;
-  }
-  constexpr std::size_t kMostFactors = 4;  // of aligned_rank_anova()
-  const bool possible = !data.factors.empty() && data.factors.size() <= kMostFactors;
-  if (!possible || data.terms.size() + 1 != std::size_t{1} << data.factors.size()) return p;
-  const auto table = aligned_rank_anova(data.values, data.factors);
-  for (std::size_t t = 0; t < data.terms.size(); ++t) {
-    for (const auto& row : table.terms) {
-      std::string name;
-      for (const auto factor : data.terms[t]) name += (name.empty() ? "" : ":") + data.factors[factor].name;
-      if (row.name != name) continue;
-      p[t] = row.test ? Estimable<double>{row.test->p} : Estimable<double>::impossible(row.test.reason());
-    }
-  }
-  return p;
-}
-
-}  // namespace
-
 Estimable<Interval> eta_squared_of(const Estimable<TestResult>& test, double alpha) {
   if (!test) return Estimable<Interval>::impossible(test.reason());
   if (!std::isfinite(test->statistic)) return Estimable<Interval>::impossible("F is beyond the range of numbers");
@@ -53,31 +23,25 @@ Method eta_squared_method(double alpha) {
 }
 
 std::string formula_text(const ModelData& data) {
-  Formula formula{data.response, {}, data.terms, {}};
-  for (const auto& factor : data.factors) formula.factors.push_back(factor.name);
-  auto text = to_string(formula);
+  std::string text = data.response + " ~ " + (data.terms.empty() ? "1" : "");
+  for (const auto& term : data.terms) {
+    if (&term != &data.terms.front()) text += " + ";
+    for (const auto factor : term) text += (factor == term.front() ? "" : ":") + data.factors[factor].name;
+  }
   for (const auto& groups : data.groups) text += " + (1|" + groups.name + ")";
   return text;
 }
 
-ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {
-  const auto type = SumsOfSquares::kTypeII;
-  ModelResult result{anova(data.values, data.factors, data.terms, type), {}, {}, rank_p_values(data)};
+ModelResult fit_model(const ModelData& data, const AnalysisOptions& options) {
+  ModelResult result{anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeII), {}};
   for (const auto& term : result.table.terms) result.eta_squared.push_back(eta_squared_of(term.test, options.alpha));
-  const auto permuted = permutation_anova(data.values, data.factors, data.terms, type, options.permutations,
-                                          random.split("permutations"));
   result.linear = fit_linear_model(data.values, data.factors, data.terms);
-  for (const auto& term : permuted.terms) {
-    result.permutation_p.push_back(term.test ? Estimable<double>{term.test->p}
-                                             : Estimable<double>::impossible(term.test.reason()));
-  }
   return result;
 }
 
-Finding analyze_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {
-  if (!data.groups.empty()) return analyze_mixed_model(data, options);
-  if (data.is_ordinal) return analyze_ordinal_model(data, options);
-  const auto result = fit_model(data, options, random);
+Finding analyze_model(const ModelData& data, const AnalysisOptions& options) {
+  if (!data.groups.empty()) return analyze_nested_model(data, options);
+  const auto result = fit_model(data, options);
   Finding finding;
   finding.id = data.response;
   finding.model = formula_text(data);
@@ -86,7 +50,7 @@ Finding analyze_model(const ModelData& data, const AnalysisOptions& options, con
   finding.sentence = sentence_of(data, result, options.alpha);
   finding.warnings = warnings_of(data, result, options.alpha);
   add_anova_results(data, result, options, finding);
-  add_count_results(data, options, finding);
+  add_survival_results(data, options, finding);
   add_bound_results(data, options, finding);
   return finding;
 }

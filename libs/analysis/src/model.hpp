@@ -7,12 +7,11 @@
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/finding.hpp"
-#include "kith/random/stream.hpp"
 #include "kith/stats/anova.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/factor.hpp"
 #include "kith/stats/linear_model.hpp"
-#include "kith/stats/mixed_model.hpp"
+#include "kith/stats/nested_model.hpp"
 
 namespace kith {
 
@@ -22,23 +21,18 @@ struct ModelData {
   std::string observations = "rows";  // what one value is, in the plural
   std::vector<double> values{};
   std::vector<Factor> factors{};                  // used by some term each
-  std::vector<std::vector<std::size_t>> terms{};  // as in Formula
+  std::vector<std::vector<std::size_t>> terms{};  // sets of indices of factors
   std::vector<bool> observed{};                   // false: a count that was cut off; empty: nothing is cut off
-  std::vector<Factor> groups{};                   // of random intercepts; empty: the values are independent
-  bool is_ordinal = false;                        // ratings: only their order counts
-  bool is_count = false;                          // whole numbers >= 0, analysed by count regressions as well
-  bool is_binary = false;                         // 0 or 1
+  std::vector<Factor> groups{};                   // of random intercepts, nested; empty: the values are independent
 };
 
-// Analyses of variance of one model with their intervals and distribution-free counterparts.
+// The analysis of variance of a model with its intervals.
 struct ModelResult {
   AnovaTable table;                              // type II
   std::vector<Estimable<Interval>> eta_squared;  // per term, with confidence 1 - 2 alpha
-  std::vector<Estimable<double>> permutation_p;  // per term
-  std::vector<Estimable<double>> rank_p;         // per term; of Kruskal and Wallis for a single factor
   Estimable<LinearModel> linear = Estimable<LinearModel>::impossible("not computed");  // the same model, for its means
 };
-[[nodiscard]] ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random);
+[[nodiscard]] ModelResult fit_model(const ModelData& data, const AnalysisOptions& options);
 
 // "periods ~ strategy + composition"
 [[nodiscard]] std::string formula_text(const ModelData& data);
@@ -55,19 +49,17 @@ struct ModelResult {
                                             const Estimable<TestResult>& type_three, double alpha);
 // Warns of combinations of levels without observations.
 [[nodiscard]] std::string empty_cells_text(std::size_t empty_cells, const std::string& observations);
-// Warns of cells of several factors with unequal numbers of observations; empty if some have none.
-[[nodiscard]] std::string unbalanced_text(const FactorDesign& design, const std::string& observations);
 // What is doubtful about the model, and what could not be estimated.
 [[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);
 
-// Adds tables of the analysis of variance, of its rivals, of means and of pairs of levels, and the methods behind them.
+// Adds tables of the analysis of variance, of means and of pairs of levels, and the methods behind them.
 // Captions begin with `about`.
 void add_anova_results(const ModelData& data, const ModelResult& result, const AnalysisOptions& options,
                        Finding& finding, const std::string& about = "");
 
-// Counts that may be cut off: rate ratios, survival. Adds to the finding if the response is a count; without tests if
-// rows belong together, because these assume independent rows.
-void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
+// Counts of which some may be cut off (data.observed): medians, and log-rank tests unless rows belong together, because
+// these assume independent rows.
+void add_survival_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
 
 // Values of an outcome with a range (OutcomeColumn) that are at one of its ends: a note, the shares of values that are
 // exactly there (Wilson), and, of rows that belong together, tests of the same model on ranks; those of independent
@@ -78,17 +70,14 @@ void add_bound_results(const ModelData& data, const AnalysisOptions& options, Fi
 // together allow none.
 [[nodiscard]] std::optional<ResultTable> raw_means_table(const ModelData& data, double confidence, bool with_limits);
 
-// A mixed model with data.groups as random intercepts: tests, variances, means and pairs.
-[[nodiscard]] Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options);
+// A model with data.groups as random intercepts: tests, variances, means and pairs.
+[[nodiscard]] Finding analyze_nested_model(const ModelData& data, const AnalysisOptions& options);
 // Its tables, and the methods behind them. Captions begin with `about`.
-void add_mixed_results(const ModelData& data, const MixedModel& model, const AnalysisOptions& options, Finding& finding,
-                       const std::string& about = "");
-
-// A proportional odds model of ratings: tests, odds ratios of pairs, how often each rating was given.
-[[nodiscard]] Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options);
+void add_nested_results(const ModelData& data, const NestedModel& model, const AnalysisOptions& options,
+                        Finding& finding, const std::string& about = "");
 
 // All of the above.
-[[nodiscard]] Finding analyze_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random);
+[[nodiscard]] Finding analyze_model(const ModelData& data, const AnalysisOptions& options);
 
 // Numbers as cells; missing where they cannot be estimated.
 [[nodiscard]] TableCell cell_of(const Estimable<double>& value);

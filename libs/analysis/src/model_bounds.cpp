@@ -60,15 +60,13 @@ ResultTable shares_table(const ModelData& data, const Bound& bound, double confi
 
 // The same mixed model of the values' ranks, whose distances do not count.
 std::optional<ResultTable> rank_table(const ModelData& data, const AnalysisOptions& options) {
-  MixedModelOptions fit;
-  fit.confidence = 1.0 - options.alpha;
-  fit.test_variances = false;
-  const auto model = fit_mixed_model(mid_ranks(data.values), data.factors, data.terms, data.groups, fit);
+  const auto model =
+      fit_nested_model(mid_ranks(data.values), data.factors, data.terms, data.groups, 1.0 - options.alpha);
   if (!model) return std::nullopt;
   ResultTable table{"Tests of the fixed effects on ranks (type II, Satterthwaite)",
                     {{"term", ResultKind::kText}, {"F on ranks"}, {"p-value", ResultKind::kP}},
                     {}};
-  for (const auto& term : term_tests(model->fixed, SumsOfSquares::kTypeII))
+  for (const auto& term : model->tests)
     table.rows.push_back(
         {text_cell(term.name), cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p)});
   return table;
@@ -78,7 +76,7 @@ std::optional<ResultTable> rank_table(const ModelData& data, const AnalysisOptio
 
 void add_bound_results(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
   const auto range = find_outcome(data.response);
-  if (!range || data.is_binary || data.is_ordinal || data.values.empty() || data.factors.empty()) return;
+  if (!range || data.values.empty() || data.factors.empty()) return;
   const auto bound = bound_of(data, *range);
   if (!bound) return;
   const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
@@ -89,10 +87,7 @@ void add_bound_results(const ModelData& data, const AnalysisOptions& options, Fi
       "shares counts who is at the bound",
       data.response, bound->is_high ? "ceiling" : "floor", bound->there, data.values.size(), data.observations,
       bound->value, bound->is_high ? "most" : "least", formatted(*least, ResultKind::kNumber),
-      formatted(*most, ResultKind::kNumber),
-      ranks                 ? "; the tests on ranks do not depend on distances"
-      : data.groups.empty() ? "; the permutation and rank tests do not depend on them"
-                            : ""));
+      formatted(*most, ResultKind::kNumber), ranks ? "; the tests on ranks do not depend on distances" : ""));
   finding.tables.push_back(shares_table(data, *bound, 1.0 - options.alpha));
   if (!ranks) return;
   finding.tables.push_back(*ranks);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "equivalence_tests.hpp"
 #include "kith/core/error.hpp"
 #include "kith/stats/multiple.hpp"
 #include "model_means.hpp"
@@ -14,35 +13,14 @@ namespace {
 
 using Kind = ResultKind;
 
+// A comparison of the marginal means.
+struct Comparison {
+  LinearEstimate estimate;
+  std::string group;  // the level of the `by` factor; may be empty
+};
+
 constexpr std::size_t kMostLevelsInPairs = 12;  // every one is compared with every other
 constexpr std::size_t kMostSimpleEffects = 12;  // levels of a factor at each of which others are compared
-
-using Scale = ComparisonFamily::Scale;
-
-Scale scale_of(Link link) {
-  switch (link) {
-    case Link::kIdentity:
-      return Scale::kDifference;
-    case Link::kLog:
-      return Scale::kRatio;
-    case Link::kLogit:
-      return Scale::kOddsRatio;
-  }
-  return Scale::kDifference;
-}
-
-// What a comparison is, in the singular, as a head of a column.
-const char* comparison_name(Scale scale) {
-  switch (scale) {
-    case Scale::kDifference:
-      return "difference";
-    case Scale::kRatio:
-      return "ratio";
-    case Scale::kOddsRatio:
-      return "odds ratio";
-  }
-  return "";
-}
 
 ResultTable comparison_table(const std::string& caption, const std::string& first, const ComparisonFamily& family,
                              bool is_corrected) {
@@ -53,14 +31,12 @@ ResultTable comparison_table(const std::string& caption, const std::string& firs
   };
   if (!family.by.empty()) add(&Result::at, family.by, Kind::kText, family.by);
   add(&Result::name, first, Kind::kText);
-  add(&Result::estimate, comparison_name(family.scale), Kind::kNumber);
+  add(&Result::estimate, "difference", Kind::kNumber);
   add(&Result::low, "lower limit", Kind::kNumber);
   add(&Result::high, "upper limit", Kind::kNumber);
-  if (family.scale == Scale::kDifference) {
-    add(&Result::d, "d", Kind::kFraction);
-    add(&Result::d_low, "d, lower limit", Kind::kFraction);
-    add(&Result::d_high, "d, upper limit", Kind::kFraction);
-  }
+  add(&Result::d, "d", Kind::kFraction);
+  add(&Result::d_low, "d, lower limit", Kind::kFraction);
+  add(&Result::d_high, "d, upper limit", Kind::kFraction);
   add(&Result::p, family.is_adjusted ? "adjusted p-value" : "p-value", Kind::kP);
   if (is_corrected) add(&Result::corrected_p, "corrected p-value", Kind::kP);
   return shown(caption, family.comparisons, columns);
@@ -76,22 +52,19 @@ double without_rounding(double estimate, double low, double high) {
 ComparisonResult result_of(const Comparison& comparison, const FixedEffects& model) {
   const auto& [estimate, group] = comparison;
   ComparisonResult result{.name = estimate.name, .at = group};
-  if (const auto shown = response_contrast(model.link, estimate)) {
-    result.estimate = without_rounding(shown->estimate, shown->low, shown->high);
-    result.low = shown->low;
-    result.high = shown->high;
-  } else if (model.link == Link::kIdentity) {
-    result.estimate = known(estimate.estimate);
-  }
+  result.estimate = known(estimate.estimate);
   if (!estimate.inference) return result;
 
   const auto& inference = *estimate.inference;
+  result.estimate = without_rounding(*estimate.estimate, inference.low, inference.high);
+  result.low = inference.low;
+  result.high = inference.high;
   result.t = inference.statistic;
   if (std::isfinite(inference.df)) result.df = inference.df;
   result.p = inference.p;
-  if (model.link == Link::kIdentity && estimate.estimate && model.residual_sd) {
+  if (model.residual_sd) {
     const double sd = *model.residual_sd;
-    result.d = without_rounding(*estimate.estimate, inference.low, inference.high) / sd;
+    result.d = *result.estimate / sd;
     result.d_low = inference.low / sd;
     result.d_high = inference.high / sd;
   }
@@ -118,17 +91,13 @@ Adjustment adjustment_of(Correction correction) {
   return Adjustment::kBonferroni;
 }
 
-MeanFamily means_of_levels(const std::string& factor, const MarginalMeans& means, Link link) {
+MeanFamily means_of_levels(const std::string& factor, const MarginalMeans& means) {
   MeanFamily family{factor, {}};
   for (const auto& mean : means.groups.front().means) {
     auto& result = family.means.emplace_back(MeanResult{.level = mean.name, .n = mean.observations});
-    if (const auto shown = response_mean(link, mean)) {
-      result.mean = shown->estimate;
-      result.low = shown->low;
-      result.high = shown->high;
-    } else if (link == Link::kIdentity) {
-      result.mean = known(mean.estimate);
-    }
+    result.mean = known(mean.estimate);
+    result.low = known(mean.inference, &Inference::low);
+    result.high = known(mean.inference, &Inference::high);
   }
   return family;
 }
@@ -184,7 +153,7 @@ class Writer {
     for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
       const auto& factor = model_.design.factors[f];
       if (factor.levels.size() < 2 || factor.levels.size() > kMostMeans) continue;
-      finding_.means.push_back(means_of_levels(factor.name, means_of(f, {}), model_.link));
+      finding_.means.push_back(means_of_levels(factor.name, means_of(f, {})));
       tables_.push_back(means_table(finding_.means.back()));
     }
     if (!model_.design.factors.empty()) add_method(finding_, {"estimated marginal means", "searle1980"});
@@ -265,7 +234,7 @@ class Writer {
         finding_.warnings.push_back(
             fmt::format("the levels of {} cannot be compared{}: {}{}", factor.name,
                         by ? " at " + group.name : std::string{}, pairs.front().estimate.reason(),
-                        interacts ? "; leave out levels (--where), or the interaction (+ instead of *)" : ""));
+                        interacts ? "; kith analyze --model tests a model without the interaction" : ""));
         continue;
       }
       for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
@@ -274,14 +243,9 @@ class Writer {
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
     ComparisonFamily family{
         .kind = ComparisonFamily::Kind::kPairs, .factor = factor.name, .by = by_name, .is_adjusted = is_family};
-    add_family(pairs_caption(factor.name, by_name, is_family, model_.link), "pair", std::move(family), comparisons);
+    add_family(pairs_caption(factor.name, by_name, is_family), "pair", std::move(family), comparisons);
     if (is_family && !comparisons.empty())
       add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
-
-    EquivalenceTests equivalence{model_, options_};
-    if (!equivalence) return;
-    equivalence.add(comparisons);
-    equivalence.finish("pairs of " + factor.name + (by ? " within " + by_name : ""), finding_, tables_);
   }
 
   void add_planned_of(std::size_t f, std::optional<std::size_t> by, const std::vector<MeanContrast>& contrasts) {
@@ -300,10 +264,6 @@ class Writer {
     if (!by) {
       for (const auto& comparison : comparisons) finding_.sentence += sentence_of_contrast(comparison);
     }
-    EquivalenceTests equivalence{model_, options_};
-    if (!equivalence) return;
-    equivalence.add(comparisons);
-    equivalence.finish("planned contrasts" + (by ? " within " + by_name : std::string{}), finding_, tables_);
   }
 
   // Corrects the p-values for all contrasts at all levels, and says which remain.
@@ -330,19 +290,17 @@ class Writer {
 
   [[nodiscard]] std::string sentence_of_contrast(const Comparison& one) const {
     const auto& name = one.estimate.name;
-    const auto shown = response_contrast(model_.link, one.estimate);
-    if (!shown || !one.estimate.inference)
+    if (!one.estimate.inference)
       return fmt::format(" {} cannot be tested: {}.", name,
                          one.estimate.estimate ? one.estimate.inference.reason() : one.estimate.estimate.reason());
-    return fmt::format(" {}: {} [{}, {}], {}.", name, formatted(shown->estimate, Kind::kNumber),
-                       formatted(shown->low, Kind::kNumber), formatted(shown->high, Kind::kNumber),
-                       p_text(one.estimate.inference->p));
+    return fmt::format(" {}: {} [{}, {}], {}.", name, formatted(*one.estimate.estimate, Kind::kNumber),
+                       formatted(one.estimate.inference->low, Kind::kNumber),
+                       formatted(one.estimate.inference->high, Kind::kNumber), p_text(one.estimate.inference->p));
   }
 
   void add_family(const std::string& caption, const std::string& first, ComparisonFamily family,
                   const std::vector<Comparison>& comparisons) {
     if (comparisons.empty()) return;
-    family.scale = scale_of(model_.link);
     for (const auto& one : comparisons) family.comparisons.push_back(result_of(one, model_));
     warn_of_missing(comparisons);
 
@@ -406,9 +364,8 @@ std::string range_of_means(const FixedEffects& model, const std::string& factor)
     if (high == nullptr || *mean.estimate > *high->estimate) high = &mean;
   }
   if (low == nullptr) return "";
-  const auto text = [&](const MarginalMean& mean) {
-    const auto shown = response_mean(model.link, mean);
-    return fmt::format("{} ({})", formatted(shown ? shown->estimate : *mean.estimate, Kind::kNumber), mean.name);
+  const auto text = [](const MarginalMean& mean) {
+    return fmt::format("{} ({})", formatted(*mean.estimate, Kind::kNumber), mean.name);
   };
   return fmt::format("from {} to {}", text(*low), text(*high));
 }

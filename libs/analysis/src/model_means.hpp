@@ -12,11 +12,11 @@ namespace kith {
 [[nodiscard]] std::string range_of_means(const FixedEffects& model, const std::string& factor);
 
 // Adds the estimated marginal means of every factor, if asked for; all pairs of them (Tukey-Kramer), also at each level
-// of the factors in options.by; the planned contrasts; and, with a smallest effect that matters, tests of equivalence.
+// of the factors in options.by; and the planned contrasts.
 void add_marginal_results(const FixedEffects& model, const AnalysisOptions& options, bool with_means, Finding& finding,
                           std::vector<ResultTable>& tables);
 
-// Adds the planned contrasts only, with their tests of equivalence.
+// Adds the planned contrasts only.
 void add_contrast_results(const FixedEffects& model, const AnalysisOptions& options, Finding& finding,
                           std::vector<ResultTable>& tables);
 

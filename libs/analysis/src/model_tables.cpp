@@ -51,20 +51,8 @@ TestFamily type_two_tests(const ModelResult& result) {
     family.tests[t].effect = known(result.table.terms[t].partial_eta_squared);
     family.tests[t].low = known(result.eta_squared[t], &Interval::low);
     family.tests[t].high = known(result.eta_squared[t], &Interval::high);
-    family.tests[t].permutation_p = known(result.permutation_p[t]);
-    family.tests[t].rank_p = known(result.rank_p[t]);
   }
   return family;
-}
-
-// Tests that do not assume normal residuals.
-ResultTable robust_table(const ModelData& data, const TestFamily& family) {
-  const bool single = data.factors.size() == 1;
-  return shown<TermResult>(
-      "Permutation and rank tests", family.tests,
-      {show(&TermResult::subject, "term", Kind::kText),
-       show(&TermResult::permutation_p, "p-value, permutation", Kind::kP),
-       show(&TermResult::rank_p, single ? "p-value, Kruskal-Wallis" : "p-value, aligned ranks", Kind::kP)});
 }
 
 ResultTable welch_table(const ModelData& data) {
@@ -80,10 +68,6 @@ std::string ways(std::size_t factors) {
   return factors <= kWords.size() ? std::string{kWords[factors - 1]} + "-way" : std::to_string(factors) + "-factor";
 }
 
-bool any_known(const std::vector<Estimable<double>>& values) {
-  return std::any_of(values.begin(), values.end(), [](const auto& value) { return static_cast<bool>(value); });
-}
-
 void name_methods(const ModelData& data, const ModelResult& result, const AnalysisOptions& options, Finding& finding) {
   const auto has_test = [](const AnovaTerm& term) { return static_cast<bool>(term.test); };
   if (std::none_of(result.table.terms.begin(), result.table.terms.end(), has_test)) return;
@@ -96,12 +80,6 @@ void name_methods(const ModelData& data, const ModelResult& result, const Analys
   const auto has_interval = [](const auto& interval) { return static_cast<bool>(interval); };
   if (std::any_of(result.eta_squared.begin(), result.eta_squared.end(), has_interval))
     add_method(finding, eta_squared_method(options.alpha));
-  if (any_known(result.permutation_p)) {
-    add_method(finding,
-               {fmt::format("permutation tests of residuals ({} permutations)", options.permutations), "freedman1983"});
-  }
-  if (any_known(result.rank_p))
-    add_method(finding, single ? Method{"the Kruskal-Wallis test"} : Method{"aligned rank tests", "wobbrock2011"});
   if (single && welch_anova(data.values, data.factors.front())) add_method(finding, {"Welch's analysis of variance"});
 }
 
@@ -120,7 +98,6 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
   if (data.factors.empty()) return;
   finding.tests.push_back(type_two_tests(result));
   tables.push_back(anova_table(kAnovaCaption, finding.tests.back(), result.table, true));
-  tables.push_back(robust_table(data, finding.tests.back()));
   if (!result.table.balanced && data.factors.size() > 1) {
     const auto other = anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeIII);
     finding.tests.push_back(tests_of(other));

@@ -85,14 +85,13 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
                                                            : ""));
   }
   if (least < kFewPerCell)
-    warnings.push_back(
-        fmt::format("the smallest cell has {}, so F tests depend on normal residuals; permutation tests do not",
-                    number_and_noun(least, data.observations.substr(0, data.observations.size() - 1))));
+    warnings.push_back(fmt::format("the smallest cell has {}, so F tests depend on normal residuals",
+                                   number_and_noun(least, data.observations.substr(0, data.observations.size() - 1))));
   const auto spread = brown_forsythe(data.values, cells);
   if (spread && spread->p < alpha && largest > kUnequalSpread * smallest) {
     warnings.push_back(fmt::format(
-        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}): prefer the permutation and rank "
-        "tests",
+        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}), which F tests assume "
+        "not to",
         formatted(smallest, ResultKind::kNumber), formatted(largest, ResultKind::kNumber), test_text(*spread)));
   }
 }
@@ -101,7 +100,7 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
 // residual of the model that is fitted without it, with Bonferroni's correction for the search (R: car::outlierTest).
 void add_far_value(const ModelData& data, const ModelResult& result, std::vector<std::string>& warnings) {
   const auto& residuals = result.table.residuals;
-  if (data.is_binary || !result.linear || !result.linear->effects.residual_sd || residuals.empty()) return;
+  if (!result.linear || !result.linear->effects.residual_sd || residuals.empty()) return;
   const auto& effects = result.linear->effects;
   const auto& design = effects.design;
   const auto columns = design.columns.size();
@@ -124,22 +123,6 @@ void add_shape_warnings(const ModelResult& result, double alpha, std::vector<std
   if (std::abs(shape->skewness) < kSkewed && std::abs(shape->excess_kurtosis) < kHeavyTails) return;
   warnings.push_back(fmt::format("residuals are not normally distributed (skewness {:.2f}, excess kurtosis {:.2f})",
                                  shape->skewness, shape->excess_kurtosis));
-}
-
-// Where tests with weaker assumptions disagree.
-void add_disagreements(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
-  for (std::size_t t = 0; t < result.table.terms.size(); ++t) {
-    const auto& term = result.table.terms[t];
-    if (!term.test) continue;
-    const bool found = term.test->p < alpha;
-    const auto compare = [&](const Estimable<double>& p, const std::string& name) {
-      if (!p || (*p < alpha) == found) return;
-      warnings.push_back(fmt::format("{}: the {} test disagrees with the F test ({} and {})", term.name, name,
-                                     p_text(*p), p_text(term.test->p)));
-    };
-    compare(result.permutation_p[t], "permutation");
-    compare(result.rank_p[t], "rank");
-  }
 }
 
 }  // namespace
@@ -216,14 +199,6 @@ std::string empty_cells_text(std::size_t empty_cells, const std::string& observa
                      number_and_noun(empty_cells, "combination"), empty_cells == 1 ? "has" : "have", observations);
 }
 
-std::string unbalanced_text(const FactorDesign& design, const std::string& observations) {
-  if (design.factors.size() < 2) return {};
-  const auto [least, most] = std::minmax_element(design.counts.begin(), design.counts.end());
-  if (*least == 0 || *least == *most) return {};
-  return fmt::format("the design is unbalanced (cells have {} to {} {}): raw means mix the effects of several factors",
-                     *least, *most, observations);
-}
-
 std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
                               const Estimable<TestResult>& type_three, double alpha) {
   if (!type_two || !type_three || (type_two->p < alpha) == (type_three->p < alpha)) return {};
@@ -249,7 +224,6 @@ std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& r
   add_cell_warnings(data, result, alpha, warnings);
   add_shape_warnings(result, alpha, warnings);
   add_far_value(data, result, warnings);
-  add_disagreements(result, alpha, warnings);
   return warnings;
 }
 

@@ -76,7 +76,6 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
     if (const auto finding = primary(teams, testable, options)) add(finding, primary_hypotheses(design));
     for (const auto& [name, values] : responses) {
       auto planned = options;
-      planned.permutations = std::max<std::size_t>(options.permutations, 1);
       std::vector<PlannedContrast> contrasts;
       for (const auto& one : testable) {
         if (!one.primary && (one.response.empty() || one.response == name)) contrasts.push_back(one);

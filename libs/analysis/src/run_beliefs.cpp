@@ -5,8 +5,8 @@
 #include <map>
 
 #include "kith/stats/clustered_tests.hpp"
-#include "kith/stats/mixed_model.hpp"
 #include "kith/stats/moments.hpp"
+#include "kith/stats/nested_model.hpp"
 #include "kith/table/column_names.hpp"
 #include "model_means.hpp"
 #include "outcomes.hpp"
@@ -126,10 +126,7 @@ Estimable<FixedEffects> effects_of(const ModelData& model, double alpha) {
     const auto fit = fit_linear_model(model.values, model.factors, model.terms);
     return fit ? Result{fit->effects} : Result::impossible(fit.reason());
   }
-  MixedModelOptions options;
-  options.confidence = 1.0 - alpha;
-  options.test_variances = false;
-  const auto fit = fit_mixed_model(model.values, model.factors, model.terms, model.groups, options);
+  const auto fit = fit_nested_model(model.values, model.factors, model.terms, model.groups, 1.0 - alpha);
   return fit ? Result{fit->fixed} : Result::impossible(fit.reason());
 }
 

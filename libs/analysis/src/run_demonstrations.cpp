@@ -29,22 +29,34 @@ std::string range_of(const std::vector<double>& values, const Factor& strategy) 
 }
 
 // Adds the tables of one component, and returns the test of the strategies.
-Estimable<TestResult> add_component(const ModelData& one, const AnalysisOptions& options, std::size_t level,
-                                    const std::string& about, Finding& finding) {
+Estimable<TestResult> add_component(const ModelData& one, const AnalysisOptions& options, const std::string& about,
+                                    Finding& finding) {
   if (one.groups.empty()) {
     const auto test = one_way_anova(one.values, one.factors.front());
     if (!test) return test;
-    const auto result = fit_model(one, options, RandomStream{options.seed}.split("log area").split(level));
+    const auto result = fit_model(one, options);
     add_anova_results(one, result, options, finding, about);
     return test;
   }
-  MixedModelOptions fit;
-  fit.confidence = 1.0 - options.alpha;
-  const auto model = fit_mixed_model(one.values, one.factors, one.terms, one.groups, fit);
+  const auto model = fit_nested_model(one.values, one.factors, one.terms, one.groups, 1.0 - options.alpha);
   if (!model) return Estimable<TestResult>::impossible(model.reason());
-  auto test = term_tests(model->fixed, SumsOfSquares::kTypeII).front().test;
-  if (test) add_mixed_results(one, *model, options, finding, about);
+  const auto& test = model->tests.front().test;
+  if (test) add_nested_results(one, *model, options, finding, about);
   return test;
+}
+
+// The people of whom every strategy has a value; where all strategies taught other people, all of them.
+std::vector<std::size_t> complete_people(const RunTeams& teams, const std::vector<std::size_t>& rows) {
+  const auto people = shared_people(teams, rows);
+  if (people.empty()) return rows;
+  const auto num_strategies = selected(teams.strategy, rows).levels.size();
+  const auto& group = people.back();
+  std::vector<std::size_t> counts(group.levels.size(), 0), complete;
+  for (const auto code : group.codes) ++counts[code];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (counts[group.codes[i]] == num_strategies) complete.push_back(i);
+  }
+  return complete;
 }
 
 }  // namespace
@@ -86,7 +98,7 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
   const auto rows = group_teams(teams);
   const auto model = team_model(teams, rows, columns::kAreaSr, teams.area_sr);
   if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
-  auto finding = analyze_model(model, options, RandomStream{options.seed}.split(columns::kAreaSr));
+  auto finding = analyze_model(model, options);
   finding.id = "demonstrations";
   finding.topic = "Manipulation check";
   finding.response = "how much the demonstrations convey";
@@ -107,6 +119,15 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
       part_teams.push_back(areas.team[i]);
       values.push_back(areas.mean_log_area[i]);
     }
+    const auto complete = complete_people(teams, part_teams);
+    if (complete.size() < part_teams.size()) {
+      finding.warnings.push_back(
+          fmt::format("component {}: {} left out whose people were not shown it for two periods under every strategy",
+                      components.levels[level], number_and_noun(part_teams.size() - complete.size(), "team")));
+      part_teams = selected(part_teams, complete);
+      values = selected(values, complete);
+      if (part_teams.empty()) continue;
+    }
     const auto strategy = selected(teams.strategy, part_teams);
     const ModelData one{.response = "log area",
                         .observations = "teams",
@@ -115,7 +136,7 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
                         .terms = {{0}},
                         .groups = shared_people(teams, part_teams)};
     const auto about = "Component " + components.levels[level] + ", mean log area without the first period: ";
-    const auto test = add_component(one, options, level, about, finding);
+    const auto test = add_component(one, options, about, finding);
     if (!test) {
       finding.warnings.push_back(fmt::format("component {}: no test: {}", components.levels[level], test.reason()));
       continue;

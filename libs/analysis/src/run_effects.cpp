@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kith/stats/clustered_tests.hpp"
-#include "kith/stats/mixed_model.hpp"
+#include "kith/stats/nested_model.hpp"
 #include "outcomes.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
@@ -13,10 +13,6 @@ namespace {
 
 using Kind = ResultKind;
 
-RandomStream stream_of(const AnalysisOptions& options, const std::string& id) {
-  return RandomStream{options.seed}.split(id);
-}
-
 // Tests of strategy within one composition.
 struct WithinTest {
   Estimable<TestResult> test = Estimable<TestResult>::impossible("not computed");
@@ -25,14 +21,11 @@ struct WithinTest {
 
 WithinTest test_within(const std::vector<double>& values, const Factor& strategy, const std::vector<Factor>& people) {
   if (people.empty()) return {one_way_anova(values, strategy), kruskal_wallis(values, strategy)};
-  MixedModelOptions fit;
-  fit.test_variances = false;
   const std::vector<std::vector<std::size_t>> terms{{0}};
   const std::vector factors{strategy};
   WithinTest tests;
-  const auto model = fit_mixed_model(values, factors, terms, people, fit);
-  tests.test = model ? term_tests(model->fixed, SumsOfSquares::kTypeII).front().test
-                     : Estimable<TestResult>::impossible(model.reason());
+  const auto model = fit_nested_model(values, factors, terms, people);
+  tests.test = model ? model->tests.front().test : Estimable<TestResult>::impossible(model.reason());
   tests.ranks = friedman(values, strategy, people.back());
   return tests;
 }
@@ -62,7 +55,7 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
                                const AnalysisOptions& options) {
   const auto model = team_model(teams, group_teams(teams), response, values);
   if (model.terms.empty()) return std::nullopt;
-  auto finding = analyze_model(model, options, stream_of(options, response));
+  auto finding = analyze_model(model, options);
   std::vector<std::string> names;
   for (const auto& factor : model.factors) names.push_back(factor.name);
   finding.topic = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names);

@@ -7,7 +7,6 @@
 #include "kith/table/csv_reader.hpp"
 #include "kith/table/table_text.hpp"
 #include "kith/toml/document.hpp"
-#include "prepared_model.hpp"
 
 namespace kith {
 namespace {
@@ -150,8 +149,7 @@ ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows
   const bool compositions = add(teams.composition);
   for (const auto& key : teams.varied) add(key);
   if (strategies && compositions) data.terms.push_back({0, 1});
-  data.is_count = response == columns::kPeriods;
-  if (data.is_count) data.observed = selected(teams.completed, rows);
+  if (response == columns::kPeriods) data.observed = selected(teams.completed, rows);
   data.groups = shared_people(teams, rows);
   return data;
 }

@@ -8,9 +8,8 @@ namespace kith {
 
 using Kind = ResultKind;
 
-std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family, Link link) {
-  std::string how = link == Link::kIdentity ? "t test" : "Wald test";
-  if (is_family) how = "Tukey-Kramer";
+std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family) {
+  std::string how = is_family ? "Tukey-Kramer" : "t test";
   if (!by.empty()) how = "at each level of " + by + (is_family ? "; " + how : "");
   return "Pairs of " + factor + " (" + how + ")";
 }

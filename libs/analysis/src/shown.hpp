@@ -50,15 +50,14 @@ template <typename T>
   return value ? std::optional{*value} : std::nullopt;
 }
 
-// Captions of tables that the script for R makes as well.
+// Captions of tables that analysis.R makes as well.
 inline constexpr const char* kAnovaCaption = "Analysis of variance (type II)";
 inline constexpr const char* kWelchCaption = "Test that does not assume equal variances (Welch)";
 inline constexpr const char* kMixedCaption = "Tests of the fixed effects (type II, Satterthwaite)";
 inline constexpr const char* kVariancesCaption = "Variances and intraclass correlations";
-inline constexpr const char* kOrdinalCaption = "Likelihood-ratio tests (proportional odds model, type II)";
 inline constexpr const char* kMeansCaption = "Estimated marginal means of ";  // and the factor
 // "Pairs of strategy (Tukey-Kramer)". @param by  the factor at each level of which they are compared, or nothing.
-[[nodiscard]] std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family, Link link);
+[[nodiscard]] std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family);
 // "Planned contrasts of strategy (holm correction)"
 [[nodiscard]] std::string planned_caption(const std::string& factor, const std::string& by,
                                           std::optional<Correction> correction);

@@ -79,12 +79,6 @@ inline std::optional<double> p_of(const Finding& finding, const std::string& cap
   return std::nullopt;
 }
 
-inline AnalysisOptions few_permutations() {
-  AnalysisOptions options;
-  options.permutations = 199;
-  return options;
-}
-
 inline std::size_t binomial(std::size_t trials, double share, RandomStream& random) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < trials; ++i) n += uniform01(random) < share ? 1u : 0u;

@@ -13,15 +13,6 @@
 
 namespace kith::testing {
 
-// Three groups of three; F(2, 6) = 27 and partial eta squared 0.9 by hand: between 54, within 6.
-inline constexpr const char* kGroups = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\nc,7\nc,8\nc,9\n";
-
-[[nodiscard]] inline AnalysisOptions quick() {
-  AnalysisOptions options;
-  options.permutations = 199;
-  return options;
-}
-
 [[nodiscard]] inline Finding finding(const Analysis& analysis, const std::string& id) {
   for (const auto& finding : analysis.findings) {
     if (finding.id == id) return finding;

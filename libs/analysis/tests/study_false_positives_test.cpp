@@ -14,7 +14,6 @@ namespace kith {
 namespace {
 
 using testing::binomial;
-using testing::few_permutations;
 using testing::kStudies;
 using testing::p_of;
 using testing::Rates;
@@ -56,8 +55,7 @@ RunTeams null_study(bool same_people, RandomStream& random) {
 
 void add_study(const RunTeams& teams, bool same_people, Rates& rates) {
   const std::string kind = same_people ? "Study, same people: " : "Study, other people: ";
-  auto how = few_permutations();
-  how.permutations = 1;
+  const AnalysisOptions how;
   const auto main = *effects(teams, "knowledge", teams.knowledge, how);
   const auto* const tests = same_people ? "Tests of the fixed" : "Analysis of variance (type II)";
   for (const auto* term : {"strategy", "composition", "strategy:composition"})

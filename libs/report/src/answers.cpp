@@ -32,8 +32,7 @@ const ComparisonFamily* comparisons_of(const Finding& finding, ComparisonFamily:
                                        const std::string& factor = "") {
   const auto& all = finding.comparisons;
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) {
-    return one.kind == kind && one.factor == factor && one.by.empty() &&
-           one.scale == ComparisonFamily::Scale::kDifference;
+    return one.kind == kind && one.factor == factor && one.by.empty();
   });
   return found == all.end() ? nullptr : &*found;
 }

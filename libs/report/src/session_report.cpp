@@ -5,7 +5,7 @@
 #include <set>
 
 #include "first_screen.hpp"
-#include "kith/analysis/analysis.hpp"
+#include "kith/analysis/table_model.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/table/column_names.hpp"
 #include "outcomes.hpp"
@@ -349,7 +349,8 @@ std::size_t num_levels(const SessionTables& tables, std::string LiveGroup::*fact
 
 // Periods and estimated knowledge by what distinguishes the groups. A design in which nothing can be compared has no
 // findings, and that is no error.
-std::vector<Finding> findings_of(const SessionTables& tables, std::vector<std::string>& notes) {
+std::vector<Finding> findings_of(const SessionTables& tables, const ReportOptions& options,
+                                 std::vector<std::string>& notes) {
   std::string factors;
   if (num_levels(tables, &LiveGroup::strategy) > 1) factors = "strategy";
   if (num_levels(tables, &LiveGroup::composition) > 1) factors += factors.empty() ? "composition" : "*composition";
@@ -371,8 +372,16 @@ std::vector<Finding> findings_of(const SessionTables& tables, std::vector<std::s
         question.observed = "completed";
         question.response_kind = ColumnKind::kCount;
       }
-      auto analysis = analyze_table(taught, question, {});
-      std::move(analysis.findings.begin(), analysis.findings.end(), std::back_inserter(findings));
+      auto analysis =
+          options.test_model ? options.test_model(taught, question) : analyze_balanced_table(taught, question, {});
+      if (analysis) {
+        std::move(analysis->findings.begin(), analysis->findings.end(), std::back_inserter(findings));
+      } else {
+        notes.push_back("'" + question.formula +
+                        "' was not tested, which needs R: kith analyze tables/sessions.csv "
+                        "--model '" +
+                        question.formula + "'.");
+      }
     } catch (const Error& error) {
       notes.push_back("'" + response + " ~ " + factors + "' was not tested: " +
                       (error.diagnostics().empty() ? std::string{error.what()} : error.diagnostics().front().message) +
@@ -426,7 +435,7 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
   auto notes = notes_of(tables, people);
 
   step("analysing");
-  const auto findings = findings_of(tables, notes);
+  const auto findings = findings_of(tables, options, notes);
   const FirstScreen screen{.design = design, .data = data, .findings = findings, .simulated = false};
 
   Json strategies = Json::array();

@@ -282,8 +282,7 @@ void CellModel::decompose(const std::vector<MatrixXd>& columns, const std::vecto
     const auto rank_of_others = rank_of(others);
     auto& term = terms_[t];
     term.df = rank_of(beside(others, columns[t])) - rank_of_others;
-    term.others = orthonormal(weighted(others), rank_of_others);
-    term.basis = orthonormal(outside(term.others, weighted(columns[t])), term.df);
+    term.basis = orthonormal(outside(orthonormal(weighted(others), rank_of_others), weighted(columns[t])), term.df);
   }
 }
 
@@ -314,10 +313,6 @@ CellMoments CellModel::summarize(std::span<const double> values) const {
   return summary;
 }
 
-VectorXd CellModel::weighted_means(std::span<const double> sums) const {
-  return Eigen::Map<const VectorXd>{sums.data(), index_of(sums.size())}.cwiseQuotient(root_counts_);
-}
-
 double CellModel::lack_of_fit(const VectorXd& z) const {
   return saturated_ ? 0.0 : (z - basis_ * (basis_.transpose() * z)).squaredNorm();
 }
@@ -325,11 +320,6 @@ double CellModel::lack_of_fit(const VectorXd& z) const {
 VectorXd CellModel::fitted(const VectorXd& z) const {
   if (saturated_) return z.cwiseQuotient(root_counts_);
   return (basis_ * (basis_.transpose() * z)).cwiseQuotient(root_counts_);
-}
-
-VectorXd CellModel::fitted_without(std::size_t term, const VectorXd& z) const {
-  const auto& others = terms_[term].others;
-  return (others * (others.transpose() * z)).cwiseQuotient(root_counts_);
 }
 
 }  // namespace kith

@@ -28,19 +28,17 @@ struct CellMoments {
   double within = 0.0;             // Sum of squares of the differences from the cells' means.
 };
 
-// A linear model whose terms are factors and their interactions, for many responses on the same observations: the
-// design is decomposed once, after which a response costs a pass over its values and a few short products.
+// A linear model whose terms are factors and their interactions.
 //
 // A cell is a combination of levels that some observation has. The model is fitted by weighted least squares to the
 // cells' means; every sum of squares is the squared length of the projection of z onto an orthonormal basis.
 class CellModel {
  public:
   struct Term {
-    std::string name;        // "strategy:composition"
-    std::size_t df = 0;      // Rank that the term adds to the model without it.
-    std::string reason;      // Why the term cannot be tested whatever the response is; empty if it can.
-    Eigen::MatrixXd basis;   // Of what the term adds: shape [cells, df], orthonormal columns.
-    Eigen::MatrixXd others;  // Of the model without the term: shape [cells, rank].
+    std::string name;       // "strategy:composition"
+    std::size_t df = 0;     // Rank that the term adds to the model without it.
+    std::string reason;     // Why the term cannot be tested whatever the response is; empty if it can.
+    Eigen::MatrixXd basis;  // Of what the term adds: shape [cells, df], orthonormal columns.
   };
 
   // Levels without observations do not count. Throws std::invalid_argument for codes that are no levels, for factors
@@ -52,7 +50,6 @@ class CellModel {
   [[nodiscard]] std::size_t observations() const noexcept { return cell_of_.size(); }
   [[nodiscard]] std::size_t num_cells() const noexcept { return counts_.size(); }
   [[nodiscard]] const std::vector<std::size_t>& cell_of() const noexcept { return cell_of_; }  // [observations]
-  [[nodiscard]] const std::vector<std::size_t>& counts() const noexcept { return counts_; }    // [cells]
   [[nodiscard]] std::size_t empty_cells() const noexcept { return empty_cells_; }
   [[nodiscard]] bool balanced() const noexcept;
   [[nodiscard]] std::size_t residual_df() const noexcept { return residual_df_; }
@@ -63,21 +60,14 @@ class CellModel {
 
   // Two passes that keep all digits of a standardised response.
   [[nodiscard]] CellMoments summarize(std::span<const double> values) const;
-  // z from the sums of the cells.
-  [[nodiscard]] Eigen::VectorXd weighted_means(std::span<const double> sums) const;
 
   [[nodiscard]] double term_sum_of_squares(std::size_t term, const Eigen::VectorXd& z) const {
     return (terms_[term].basis.transpose() * z).squaredNorm();
   }
   // What the cells' means vary beyond the model: with `within` it makes the residual sum of squares.
   [[nodiscard]] double lack_of_fit(const Eigen::VectorXd& z) const;
-  // Sum of squares of the fitted values. Residuals have total - this, with cancellation if the fit is close.
-  [[nodiscard]] double model_sum_of_squares(const Eigen::VectorXd& z) const {
-    return (basis_.transpose() * z).squaredNorm();
-  }
-  // The cells' means that the model, or the model without a term, expects; shape [cells].
+  // The cells' means that the model expects; shape [cells].
   [[nodiscard]] Eigen::VectorXd fitted(const Eigen::VectorXd& z) const;
-  [[nodiscard]] Eigen::VectorXd fitted_without(std::size_t term, const Eigen::VectorXd& z) const;
 
  private:
   // Finds the bases of the model and of its terms. `columns` are those of each term, `sets` their factors.

@@ -180,8 +180,7 @@ Estimable<FactorDesign> make_factor_design(std::size_t observations, std::span<c
 }
 
 FixedEffects make_fixed_effects(FactorDesign design, std::span<const double> coefficients,
-                                std::span<const double> covariance, std::function<double(std::span<const double>)> df,
-                                Link link) {
+                                std::span<const double> covariance, std::function<double(std::span<const double>)> df) {
   const auto k = design.kept.size();
   const auto p = design.columns.size();
   if (coefficients.size() != k || covariance.size() != k * k)
@@ -199,7 +198,6 @@ FixedEffects make_fixed_effects(FactorDesign design, std::span<const double> coe
     for (const auto column : kept) weights.push_back(combination[column]);
     return df(weights);
   };
-  model.link = link;
   model.design = std::move(design);
   return model;
 }

@@ -265,25 +265,4 @@ std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const 
   return results;
 }
 
-namespace {
-
-Estimable<Interval> transformed(const LinearEstimate& estimate, double (*function)(double)) {
-  if (!estimate.inference) return Estimable<Interval>::impossible(estimate.inference.reason());
-  return Interval{function(*estimate.estimate), function(estimate.inference->low), function(estimate.inference->high)};
-}
-
-double same(double x) { return x; }
-double exponential(double x) { return std::exp(x); }
-double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
-
-}  // namespace
-
-Estimable<Interval> response_mean(Link link, const LinearEstimate& mean) {
-  return transformed(mean, link == Link::kIdentity ? same : link == Link::kLog ? exponential : logistic);
-}
-
-Estimable<Interval> response_contrast(Link link, const LinearEstimate& contrast) {
-  return transformed(contrast, link == Link::kIdentity ? same : exponential);
-}
-
 }  // namespace kith

@@ -12,7 +12,6 @@
 #include "kith/stats/distributions.hpp"
 #include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/effect_size.hpp"
-#include "kith/stats/equivalence.hpp"
 #include "kith/stats/tests.hpp"
 #include "reference.hpp"
 
@@ -99,54 +98,6 @@ TEST(VarianceRatio, EqualsVarTest) {
   }
   EXPECT_FALSE(variance_ratio(std::vector{1.0, 1.0}, std::vector{1.0, 2.0}));
   EXPECT_FALSE(variance_ratio(std::vector{1.0}, std::vector{1.0, 2.0}));
-}
-
-TEST(Equivalence, OfWelchAndPairedDifferencesEquals) {
-  const auto expect_equal = [](const Equivalence& actual, const json& expected) {
-    EXPECT_NEAR(actual.above_low.p, expected.at("p_low").get<double>(), 1e-10);
-    EXPECT_NEAR(actual.below_high.p, expected.at("p_high").get<double>(), 1e-10);
-    expect_relative(actual.narrow.low, expected.at("low"), 1e-8, "low");
-    expect_relative(actual.narrow.high, expected.at("high"), 1e-8, "high");
-    EXPECT_EQ(actual.p, std::max(actual.above_low.p, actual.below_high.p));
-    const bool inside = actual.narrow.low > actual.bounds.low && actual.narrow.high < actual.bounds.high;
-    EXPECT_EQ(inside, actual.p < 0.05);
-  };
-  for (const auto& entry : comparisons().at("two_groups")) {
-    const std::vector<double> a = entry.at("a");
-    const std::vector<double> b = entry.at("b");
-    const EquivalenceBounds bounds{entry.at("bounds")[0], entry.at("bounds")[1]};
-    const auto welch = test_equivalence(*welch_t_test(a, b), bounds);
-    expect_equal(welch, entry.at("welch_tost"));
-    EXPECT_NEAR(welch.p, entry.at("welch_tost").at("p_by_t_test").get<double>(), 1e-10);
-    if (entry.contains("paired_tost"))
-      expect_equal(test_equivalence(*paired_t_test(a, b), bounds), entry.at("paired_tost"));
-  }
-}
-
-TEST(Equivalence, HasAllFourVerdicts) {
-  const EquivalenceBounds bounds{-1.0, 1.0};
-  const auto verdict = [&](double estimate, double standard_error) {
-    return test_equivalence(estimate, standard_error, 30.0, bounds).verdict;
-  };
-  EXPECT_EQ(verdict(0.1, 0.1), EquivalenceVerdict::kEquivalent);
-  EXPECT_EQ(verdict(0.5, 0.1), EquivalenceVerdict::kDifferentAndEquivalent);
-  EXPECT_EQ(verdict(2.0, 0.4), EquivalenceVerdict::kDifferent);
-  EXPECT_EQ(verdict(0.5, 0.6), EquivalenceVerdict::kUndecided);
-  EXPECT_EQ(to_string(EquivalenceVerdict::kUndecided), "undecided");
-}
-
-TEST(Equivalence, OfAContrastIsThatOfItsEstimate) {
-  const LinearEstimate contrast{"x", {}, 0.2, Inference{0.3, testing::kInfinity, 0.67, 0.9, 0.5, -1.0, 1.0}};
-  const auto result = test_equivalence(contrast, {-1.0, 0.8});
-  ASSERT_TRUE(result);
-  EXPECT_NEAR(result->below_high.p, normal_upper(2.0), 1e-15);
-  // One of several contrasts, with an adjusted p: it must not be called different beside p = 0.09.
-  const LinearEstimate adjusted{"x", {}, 2.0, Inference{0.9, testing::kInfinity, 2.2, 0.09, 0.03, -0.2, 4.2}};
-  EXPECT_EQ(test_equivalence(adjusted, {-1.0, 1.0})->verdict, EquivalenceVerdict::kUndecided);
-  EXPECT_FALSE(test_equivalence(LinearEstimate{}, {-1.0, 1.0}));
-  EXPECT_THROW((void)test_equivalence(contrast, {1.0, 1.0}), std::invalid_argument);
-  EXPECT_THROW((void)test_equivalence(contrast, {-1.0, 1.0}, 0.5), std::invalid_argument);
-  EXPECT_THROW((void)test_equivalence(0.0, 0.0, 3.0, {-1.0, 1.0}), std::invalid_argument);
 }
 
 TEST(Sphericity, EqualsCar) {

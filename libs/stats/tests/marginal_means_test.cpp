@@ -51,9 +51,8 @@ FixedEffects effects_of(const json& entry) {
     if (!coefficient.is_null()) coefficients.push_back(coefficient);
   }
   const std::vector<double> covariance = entry.at("covariance");
-  return make_fixed_effects(
-      *make_factor_design(response.size(), factors, terms), coefficients, covariance,
-      [](auto) { return testing::kInfinity; }, entry.at("family") == "poisson" ? Link::kLog : Link::kLogit);
+  return make_fixed_effects(*make_factor_design(response.size(), factors, terms), coefficients, covariance,
+                            [](auto) { return testing::kInfinity; });
 }
 
 MarginalMeans means_of(const FixedEffects& model, const json& request) {
@@ -239,17 +238,6 @@ TEST(MarginalMeans, OfAConfoundedFactorDoNotTakeTheOtherFactorsEffect) {
       estimate_contrasts(model.effects, adjusted, pairwise_contrasts(adjusted), Adjustment::kTukey).at(0);
   EXPECT_NEAR(*difference.estimate, 0.0, 1e-14);
   EXPECT_GT(difference.inference->p, 0.99);
-}
-
-TEST(ResponseScale, IsThatOfTheLink) {
-  LinearEstimate estimate{"x", {}, 0.0, Inference{1.0, testing::kInfinity, 0.0, 1.0, 1.0, -1.0, 2.0}};
-  EXPECT_EQ(response_mean(Link::kIdentity, estimate)->high, 2.0);
-  EXPECT_EQ(response_mean(Link::kLog, estimate)->high, std::exp(2.0));
-  EXPECT_EQ(response_mean(Link::kLogit, estimate)->estimate, 0.5);
-  EXPECT_EQ(response_contrast(Link::kLogit, estimate)->estimate, 1.0);
-  EXPECT_EQ(response_contrast(Link::kLog, estimate)->low, std::exp(-1.0));
-  estimate.inference = Estimable<Inference>::impossible("why");
-  EXPECT_EQ(response_mean(Link::kLog, estimate).reason(), "why");
 }
 
 }  // namespace

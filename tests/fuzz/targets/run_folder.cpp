@@ -50,9 +50,7 @@ std::string frozen_study(const fs::path& folder) {
 }
 
 std::string analysis(const fs::path& folder) {
-  AnalysisOptions options;
-  options.permutations = 5;
-  const auto analysis = analyze_run(folder, options);
+  const auto analysis = analyze_run(folder, {});
   std::string text;
   for (const auto& finding : analysis.findings) text += finding.sentence + "\n";
   return text;

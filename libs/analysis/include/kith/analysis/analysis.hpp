@@ -1,13 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "kith/analysis/contrasts.hpp"
-#include "kith/analysis/dataset.hpp"
 #include "kith/analysis/finding.hpp"
 #include "kith/stats/anova.hpp"
 #include "kith/stats/multiple.hpp"
@@ -17,11 +14,8 @@ namespace kith {
 struct AnalysisOptions {
   double alpha = 0.05;  ///< In (0, 1): below it a p-value counts as evidence; intervals have level 1 - alpha.
   Correction correction = Correction::kBonferroni;  ///< Of families of tests.
-  std::size_t permutations = 999;
-  std::uint64_t seed = 1;                    ///< Of permutations.
-  std::vector<PlannedContrast> contrasts{};  ///< Compared in every model that has their factor.
+  std::vector<PlannedContrast> contrasts{};         ///< Compared in every model that has their factor.
   std::vector<std::string> by{};  ///< Factors at each level of which the levels of the others are compared as well.
-  std::optional<SmallestEffect> smallest_effect{};  ///< Differences are tested for being smaller than this.
 };
 
 /// The analyses of a study of teaching strategies, by the tables in a run folder:
@@ -35,24 +29,11 @@ struct AnalysisOptions {
 ///   demonstrations                 the manipulation check: how much the demonstrations convey, per component
 ///   ...-baseline                   group strategies against teaching everybody alone
 ///
-/// Teams of the same people are not independent: mixed models and paired tests. What a design does not allow is left
+/// Teams of the same people are not independent: random intercepts, which is an analysis of variance with error strata
+/// since designs are balanced, and paired tests. What a design does not allow is left
 /// out, and a note says why.
 /// @throws kith::Error kInvalidInput for a damaged table or an unfinished run, kIo if there is none, kInfeasible
 /// (E0906) if nothing can be analysed.
 [[nodiscard]] Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOptions& options);
-
-/// A model to be analysed on any tidy table.
-struct ModelQuestion {
-  std::string formula{};                  ///< "knowledge ~ strategy*composition"
-  std::optional<std::string> observed{};  ///< Column of true and false: false for a count that was cut off (censored).
-  /// What the response is; unspecified: what the table says, else a number. Counts also get count regressions.
-  ColumnKind response_kind = ColumnKind::kUnspecified;
-  std::vector<std::string> identifiers{};  ///< Further columns that name who or what a row is about.
-  bool independent = false;                ///< Analyse rows as independent although identifiers repeat.
-};
-/// @throws kith::Error kUsage for a formula that cannot be read, kInvalidInput for columns that are missing or not what
-/// the model needs and for values beyond 1e100 in size (E0911), kInfeasible (E0905) if no row is complete.
-[[nodiscard]] Analysis analyze_table(const Dataset& data, const ModelQuestion& question,
-                                     const AnalysisOptions& options);
 
 }  // namespace kith

@@ -39,6 +39,8 @@ class Dataset {
   /// Where row i begins in the file, from 1.
   [[nodiscard]] std::size_t line(std::size_t i) const { return lines_.at(i); }
 
+  /// A cell of a column as text, numbers with decimal points whatever the file has. @throws as cells() does.
+  [[nodiscard]] std::optional<std::string> with_points(std::string_view column, std::size_t row) const;
   /// The cells of a column. @throws kith::Error (kInvalidInput, E0901) if there is no such column.
   [[nodiscard]] const std::vector<std::optional<std::string>>& cells(std::string_view column) const;
   /// The same as numbers; true and false are 1 and 0.
@@ -74,5 +76,9 @@ class Dataset {
   std::vector<std::size_t> lines_;
   bool decimal_comma_ = false;  // commas do not separate the cells
 };
+
+/// Values whose squares leave the range of numbers are refused: nothing about their variances could be computed.
+/// @throws kith::Error (kInvalidInput, E0911) with file and row.
+void check_sizes(const Dataset& data, const std::string& column);
 
 }  // namespace kith

@@ -59,8 +59,7 @@ struct TermResult {
   std::optional<double> low{};
   std::optional<double> high{};
   std::optional<double> sum_of_squares{};
-  std::optional<double> permutation_p{};  ///< Of tests that do not assume normal residuals.
-  std::optional<double> rank_p{};
+  std::optional<double> rank_p{};  ///< Of a test that does not assume normal residuals.
 };
 
 /// Tests that belong together: of all terms of a model, of all parts of the data.
@@ -81,7 +80,7 @@ struct ComparisonResult {
   std::string response{};            ///< A column; empty: that of the finding.
   std::string at{};                  ///< The level of ComparisonFamily::by.
   std::size_t n = 0;                 ///< Pairs of values; 0 where they are not paired.
-  std::optional<double> estimate{};  ///< First minus second, or their ratio; and its interval of level 1 - alpha.
+  std::optional<double> estimate{};  ///< First minus second; and its interval of level 1 - alpha.
   std::optional<double> low{};
   std::optional<double> high{};
   std::optional<double> d{};  ///< Standardised, with its interval.
@@ -102,9 +101,7 @@ struct ComparisonFamily {
     kSamePeople,  ///< All pairs of strategies, on the same people.
     kAlone,       ///< Teams taught together and people taught one after the other.
   };
-  enum class Scale { kDifference, kRatio, kOddsRatio };
   Kind kind = Kind::kPairs;
-  Scale scale = Scale::kDifference;
   std::string factor{};
   std::string by{};          ///< The factor at each level of which is compared; may be empty.
   bool is_adjusted = false;  ///< Whether p-values and intervals allow for the number of comparisons.

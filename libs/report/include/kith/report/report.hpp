@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "kith/analysis/table_model.hpp"
 #include "kith/study/study_spec.hpp"
 
 namespace kith {
@@ -15,6 +17,9 @@ struct ReportOptions {
   std::size_t points_per_cell = 150;  ///< Teams of a cell that are listed one by one; fewer where there are many cells.
   std::size_t sphere_particles = 250;  ///< Particles of a belief that are drawn; fewer for long sessions.
   StudyKinds kinds{};                  ///< What the run's study can name.
+  /// Tests a model on a table of live sessions, as analyze_balanced_table(), which is asked without it; nothing if it
+  /// cannot.
+  std::function<std::optional<Analysis>(const Dataset&, const ModelQuestion&)> test_model{};
   /// Called with what is done next ("reading periods.csv"), and again now and then while it is done.
   std::function<void(std::string_view step)> on_step{};
 };
@@ -23,7 +28,7 @@ struct ReportOptions {
 /// kith.report/1, docs/formats.md) on one line, in ASCII. It holds the tables behind the figures with their intervals,
 /// the findings of the analysis, a methods paragraph with its references, every parameter, how to reproduce the run,
 /// and the beliefs of three teams, which are taught again from the frozen inputs. It depends on the files of the folder
-/// only: equal folders give equal bytes.
+/// only, and on test_model: equal folders give equal bytes.
 ///
 /// A report of live sessions has what can be known of people: answers, periods, and the teacher's estimates of their
 /// knowledge.

@@ -11,9 +11,6 @@
 
 namespace kith {
 
-/// The scale on which a model is linear: of the response itself, of its logarithm, or of the log odds.
-enum class Link { kIdentity, kLog, kLogit };
-
 /// A factor of a model: those of its levels that have observations, in their order.
 struct ModelFactor {
   std::string name;
@@ -51,14 +48,13 @@ struct FactorDesign {
                                                          std::span<const std::vector<std::size_t>> terms);
 
 /// What a fitted model says about linear combinations of its fixed effects: all that marginal means, contrasts and
-/// tests of them need, whatever the model is (linear, mixed, count or cumulative logit).
+/// tests of them need, whether rows are independent or in groups.
 struct FixedEffects {
   FactorDesign design;
-  std::vector<double> coefficients;  ///< [columns] on the scale of the link; 0 for columns that are not kept.
+  std::vector<double> coefficients;  ///< [columns] 0 for columns that are not kept.
   std::vector<double> covariance;    ///< [columns, columns], row-major; 0 for columns that are not kept.
   /// Degrees of freedom of the combination, shape [columns]; > 0 and possibly infinite.
   std::function<double(std::span<const double>)> df;
-  Link link = Link::kIdentity;
   /// What standardises differences, such as the residual standard deviation.
   Estimable<double> residual_sd = Estimable<double>::impossible("this model has no residual standard deviation");
   /// Why there are no standard errors ("no residual degrees of freedom: ..."); empty if there are.
@@ -72,8 +68,7 @@ struct FixedEffects {
 /// @throws std::invalid_argument if shapes differ.
 [[nodiscard]] FixedEffects make_fixed_effects(FactorDesign design, std::span<const double> coefficients,
                                               std::span<const double> covariance,
-                                              std::function<double(std::span<const double>)> df,
-                                              Link link = Link::kIdentity);
+                                              std::function<double(std::span<const double>)> df);
 
 /// How sure an estimate is. p is two-sided against 0 and, like the interval, adjusted as the caller asked.
 struct Inference {
@@ -86,7 +81,7 @@ struct Inference {
   double high = 0.0;
 };
 
-/// A linear combination of the coefficients, on the scale of the link.
+/// A linear combination of the coefficients.
 struct LinearEstimate {
   std::string name;
   std::vector<double> combination;  ///< [columns]

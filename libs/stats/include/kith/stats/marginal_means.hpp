@@ -31,8 +31,8 @@ struct MarginalMeans {
 };
 
 /// Marginal means of every combination of levels of the factors `over`, at each combination of levels of the factors
-/// `by`, averaged over all other factors of the model, whose combinations of levels count equally, on the scale of the
-/// link. Intervals are not adjusted.
+/// `by`, averaged over all other factors of the model, whose combinations of levels count equally. Intervals are not
+/// adjusted.
 /// @param over, by  indices of model.design.factors, none twice; `over` is not empty.
 /// @throws std::invalid_argument if an index is out of range or occurs twice, or confidence is not in (0, 1).
 [[nodiscard]] MarginalMeans marginal_means(const FixedEffects& model, std::span<const std::size_t> over,
@@ -59,17 +59,12 @@ struct MeanContrast {
 
 /// Every pair of means: "second - first", in the order of R: the first with every later one, then the second.
 [[nodiscard]] std::vector<MeanContrast> pairwise_contrasts(const MarginalGroup& group);
-/// Estimates the contrasts of one group as one family (R: emmeans::contrast); of a log or logit model they are
-/// logarithms of ratios. Contrasts that cannot be estimated do not count in the family.
+/// Estimates the contrasts of one group as one family (R: emmeans::contrast). Contrasts that cannot be estimated do not
+/// count in the family.
 /// @param means  of the same model.
 /// @throws std::invalid_argument if contrast_error() finds fault with one, or confidence is not in (0, 1).
 [[nodiscard]] std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const MarginalGroup& means,
                                                              std::span<const MeanContrast> contrasts,
                                                              Adjustment adjustment, double confidence = 0.95);
-
-/// A marginal mean with its interval on the scale of the response: exp() of a log link, 1 / (1 + exp(-x)) of a logit.
-[[nodiscard]] Estimable<Interval> response_mean(Link link, const LinearEstimate& mean);
-/// A contrast with its interval as people read it: a difference, a ratio of means (log) or an odds ratio (logit).
-[[nodiscard]] Estimable<Interval> response_contrast(Link link, const LinearEstimate& contrast);
 
 }  // namespace kith

@@ -5,7 +5,7 @@
 
 #include "kith/analysis/decimals.hpp"
 #include "kith/stats/design_effect.hpp"
-#include "kith/stats/mixed_model.hpp"
+#include "kith/stats/nested_model.hpp"
 #include "model_means.hpp"
 #include "shown.hpp"
 
@@ -53,7 +53,7 @@ ResultTable tests_table(const std::string& caption, const TestFamily& family) {
                                     show(&TermResult::p, "p-value", Kind::kP)}));
 }
 
-ResultTable variances_table(const MixedModel& model, const std::vector<Factor>& groups) {
+ResultTable variances_table(const NestedModel& model, const std::vector<Factor>& groups) {
   ResultTable table{kVariancesCaption,
                     {{"rows with the same", Kind::kText},
                      {"groups", Kind::kCount},
@@ -64,8 +64,8 @@ ResultTable variances_table(const MixedModel& model, const std::vector<Factor>& 
                      {"p-value", Kind::kP},
                      {"design effect", Kind::kNumber}},
                     {}};
-  for (std::size_t k = 0; k < model.components.size(); ++k) {
-    const auto& one = model.components[k];
+  for (std::size_t k = 0; k < model.groups.size(); ++k) {
+    const auto& one = model.groups[k];
     table.rows.push_back({text_cell(one.name), count_cell(one.groups), one.variance, one.intraclass_correlation,
                           cell_of(one.intraclass_interval, &Interval::low),
                           cell_of(one.intraclass_interval, &Interval::high), cell_of(one.test, &TestResult::p),
@@ -78,10 +78,10 @@ ResultTable variances_table(const MixedModel& model, const std::vector<Factor>& 
   return table;
 }
 
-std::string likeness_sentence(const MixedModel& model, const ModelData& data) {
+std::string likeness_sentence(const NestedModel& model, const ModelData& data) {
   std::string text;
-  for (std::size_t k = 0; k < model.components.size(); ++k) {
-    const auto& one = model.components[k];
+  for (std::size_t k = 0; k < model.groups.size(); ++k) {
+    const auto& one = model.groups[k];
     const auto effect = design_effect(data.groups[k], one.intraclass_correlation);
     text += fmt::format(" The intraclass correlation of {} with the same {} is {:.2f}", data.observations, one.name,
                         one.intraclass_correlation);
@@ -97,17 +97,10 @@ std::string likeness_sentence(const MixedModel& model, const ModelData& data) {
   return text;
 }
 
-void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding& finding) {
-  const auto is_interaction = [](const auto& term) { return term.size() > 1; };
-  const auto empty = std::count(model.fixed.design.counts.begin(), model.fixed.design.counts.end(), std::size_t{0});
-  if (empty > 0 && std::any_of(data.terms.begin(), data.terms.end(), is_interaction))
-    finding.warnings.push_back(empty_cells_text(static_cast<std::size_t>(empty), data.observations));
-  if (auto text = unbalanced_text(model.fixed.design, data.observations); !text.empty())
-    finding.warnings.push_back(std::move(text));
-
-  const auto is_zero = [](const VarianceComponent& one) { return one.variance == 0.0; };
-  const bool all_zero = std::all_of(model.components.begin(), model.components.end(), is_zero);
-  for (const auto& component : model.components) {
+void add_nested_warnings(const NestedModel& model, const ModelData& data, Finding& finding) {
+  const auto is_zero = [](const GroupVariance& one) { return one.variance == 0.0; };
+  const bool all_zero = std::all_of(model.groups.begin(), model.groups.end(), is_zero);
+  for (const auto& component : model.groups) {
     if (is_zero(component)) {
       finding.warnings.push_back(fmt::format(
           "the variance of {0} is estimated as 0, so the tests treat {1} {2}{3}", component.name, data.observations,
@@ -123,41 +116,19 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
     }
   }
 
-  if (!data.is_binary) add_far_value_of_cells(data, model.fixed.design, finding.warnings);
-  if (data.is_ordinal) {
-    finding.warnings.push_back(
-        "ratings are analysed as numbers with equal steps, because kith's ordinal models have no random intercepts; "
-        "the script for R (--r) names one that has");
-  }
+  add_far_value_of_cells(data, model.fixed.design, finding.warnings);
 }
 
 }  // namespace
 
-void add_mixed_results(const ModelData& data, const MixedModel& model, const AnalysisOptions& options, Finding& finding,
-                       const std::string& about) {
-  const auto tests = term_tests(model.fixed, SumsOfSquares::kTypeII);
+void add_nested_results(const ModelData& data, const NestedModel& model, const AnalysisOptions& options,
+                        Finding& finding, const std::string& about) {
   std::vector<ResultTable> tables;
   if (!data.terms.empty()) {
-    finding.tests.push_back(tests_with_effects(tests, options.alpha));
+    finding.tests.push_back(tests_with_effects(model.tests, options.alpha));
     tables.push_back(tests_table(kMixedCaption, finding.tests.back()));
     add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
     add_method(finding, eta_squared_method(options.alpha));
-  }
-  if (data.terms.size() > 1) {
-    const auto other = term_tests(model.fixed, SumsOfSquares::kTypeIII);
-    const auto differs = [&](std::size_t t) {
-      return other[t].test && tests[t].test && std::abs(other[t].test->p - tests[t].test->p) > 1e-6;
-    };
-    bool any = false;
-    for (std::size_t t = 0; t < tests.size(); ++t) {
-      any = any || differs(t);
-      auto text = type_disagreement(tests[t].name, tests[t].test, other[t].test, options.alpha);
-      if (!text.empty()) finding.warnings.push_back(std::move(text));
-    }
-    if (any) {
-      finding.tests.push_back(tests_with_effects(other, options.alpha));
-      tables.push_back(tests_table("Tests of the fixed effects (type III, Satterthwaite)", finding.tests.back()));
-    }
   }
   tables.push_back(variances_table(model, data.groups));
   if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) tables.push_back(std::move(*means));
@@ -168,14 +139,12 @@ void add_mixed_results(const ModelData& data, const MixedModel& model, const Ana
   }
 }
 
-Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options) {
+Finding analyze_nested_model(const ModelData& data, const AnalysisOptions& options) {
   Finding finding{.id = data.response, .model = formula_text(data)};
   finding.topic = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
 
-  MixedModelOptions fit;
-  fit.confidence = 1.0 - options.alpha;
-  const auto model = fit_mixed_model(data.values, data.factors, data.terms, data.groups, fit);
+  const auto model = fit_nested_model(data.values, data.factors, data.terms, data.groups, 1.0 - options.alpha);
   finding.sentence = fmt::format("Mixed model of {} ({} {} in {} groups).", data.response, data.values.size(),
                                  data.observations, data.groups.front().levels.size());
 
@@ -185,16 +154,16 @@ Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& option
     return finding;
   }
 
-  const auto tests = term_tests(model->fixed, SumsOfSquares::kTypeII);
+  const auto& tests = model->tests;
   for (std::size_t t = 0; t < data.terms.size(); ++t) {
     finding.sentence += " " + term_sentence(data, t, tests[t].test, eta_squared_of(tests[t].test, options.alpha),
                                             &model->fixed, options.alpha);
   }
 
   finding.sentence += likeness_sentence(*model, data);
-  add_mixed_warnings(*model, data, finding);
-  add_mixed_results(data, *model, options, finding);
-  add_count_results(data, options, finding);
+  add_nested_warnings(*model, data, finding);
+  add_nested_results(data, *model, options, finding);
+  add_survival_results(data, options, finding);
   add_bound_results(data, options, finding);
   return finding;
 }

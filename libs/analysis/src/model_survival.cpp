@@ -1,69 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "kith/stats/count_model.hpp"
-#include "kith/stats/quasi_poisson.hpp"
 #include "kith/stats/survival.hpp"
-#include "model_means.hpp"
+#include "model.hpp"
 #include "shown.hpp"
 
 namespace kith {
 namespace {
 
 using Kind = ResultKind;
-
-// Tests of terms, and ratios of means with their intervals.
-void add_log_linear(const std::string& name, const std::string& detail, const std::vector<TermTest>& terms,
-                    const FixedEffects& model, const AnalysisOptions& options, Finding& finding) {
-  const bool is_f = !terms.empty() && terms.front().test && terms.front().test->df.size() > 1;
-  auto family = tests_of(terms, TestFamily::Residuals::kWhole);
-  if (!is_f) family.statistic = TestFamily::Statistic::kChiSquared;
-  finding.tables.push_back(shown<TermResult>(
-      fmt::format("{} of the {} regression (type II{})", is_f ? "F tests" : "Likelihood-ratio tests", name, detail),
-      family.tests,
-      {show(&TermResult::subject, "term", Kind::kText), show(&TermResult::df, "df", Kind::kCount),
-       show(&TermResult::statistic, is_f ? "F" : "chi-squared"), show(&TermResult::p, "p-value", Kind::kP)}));
-  finding.tests.push_back(std::move(family));
-  auto plain = options;  // contrasts and equivalence are of differences, which the analysis of variance has
-  plain.contrasts.clear();
-  plain.by.clear();
-  std::vector<ResultTable> tables;
-  add_marginal_results(model, plain, false, finding, tables);
-  for (auto& table : tables) {
-    table.caption = "Ratios of means: " + table.caption;
-    finding.tables.push_back(std::move(table));
-  }
-}
-
-// Counts that vary as Poisson's or less.
-void add_quasi_poisson(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  const auto model = fit_quasi_poisson(data.values, data.factors, data.terms);
-  if (!model) {
-    finding.warnings.push_back("the regression of counts could not be fitted: " + model.reason());
-    return;
-  }
-  add_log_linear("quasi-Poisson", fmt::format(", dispersion {:.2f}", model->dispersion), model->term_tests,
-                 model->fixed, options, finding);
-  add_method(finding, {"quasi-Poisson regression with F tests", "mccullagh1989"});
-}
-
-void add_rates(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  const auto model = fit_count_model(data.values, data.observed, data.factors, data.terms);
-  if (!model) {
-    finding.warnings.push_back("the regression of counts could not be fitted: " + model.reason());
-    return;
-  }
-  const bool is_censored = model->censored > 0;
-  if (!is_censored && !model->theta) return add_quasi_poisson(data, options, finding);
-  const std::string family = model->theta ? "negative binomial" : "Poisson";
-  add_log_linear((is_censored ? "censored " : "") + family,
-                 model->theta ? fmt::format(", theta {:.2f}", *model->theta) : std::string{}, model->term_tests,
-                 model->fixed, options, finding);
-  add_method(finding,
-             {family + " regression" + (is_censored ? " of censored counts" : "") + " with likelihood-ratio tests"});
-}
 
 // All other factors together, as strata.
 std::optional<Factor> strata_without(const ModelData& data, std::size_t left_out) {
@@ -132,25 +78,18 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
 
 }  // namespace
 
-void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  if (data.factors.empty() || !data.is_count) return;
-  const bool is_mixed = !data.groups.empty();
+void add_survival_results(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
+  if (data.factors.empty() || data.observed.empty()) return;
+  const bool is_nested = !data.groups.empty();
   const auto cut_off = static_cast<std::size_t>(std::count(data.observed.begin(), data.observed.end(), false));
-  if (is_mixed) {
-    finding.warnings.push_back(
-        "counts are analysed by a linear mixed model, because kith's count regressions have no random intercepts; the "
-        "script for R (--r) names one that has");
-  } else {
-    add_rates(data, options, finding);
-  }
   if (cut_off > 0) {
     finding.warnings.push_back(
         fmt::format("{} of {} {} were stopped before they finished, so their counts are lower bounds; the {} takes "
                     "them as they are{}",
-                    cut_off, data.values.size(), data.observations, is_mixed ? "mixed model" : "analysis of variance",
-                    is_mixed ? "" : ", the regression of counts and the log-rank tests do not"));
+                    cut_off, data.values.size(), data.observations, is_nested ? "mixed model" : "analysis of variance",
+                    is_nested ? "" : ", the log-rank tests do not"));
   }
-  if (data.observed.empty() || (is_mixed && cut_off == 0)) return;
+  if (is_nested && cut_off == 0) return;
   if (std::all_of(data.values.begin(), data.values.end(), [](double value) { return value > 0.0; }))
     add_survival(data, 1.0 - options.alpha, finding);
 }
