@@ -124,8 +124,12 @@ TEST(NullData, HasIdentifiersOfGroupsAndPeople) {
     const auto repeats = [&](const std::vector<std::size_t>& codes) {
       return *std::max_element(codes.begin(), codes.end()) + 1 < codes.size();
     };
-    if (repeats(groups)) EXPECT_TRUE(found.contains(groups)) << table.file << ": groups";
-    if (repeats(people) && people != groups) EXPECT_TRUE(found.contains(people)) << table.file << ": people";
+    if (repeats(groups)) {
+      EXPECT_TRUE(found.contains(groups)) << table.file << ": groups";
+    }
+    if (repeats(people) && people != groups) {
+      EXPECT_TRUE(found.contains(people)) << table.file << ": people";
+    }
   }
 }
 
