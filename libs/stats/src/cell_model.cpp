@@ -234,7 +234,7 @@ CellModel::CellModel(std::size_t observations, std::span<const Factor> factors,
                      std::span<const std::vector<std::size_t>> terms, SumsOfSquares type) {
   const auto sets = checked_terms(terms, factors.size());
   for (const auto& factor : factors) require_codes(factor, observations, "anova");
-  for (const auto& set : sets) terms_.push_back({name_of(set, factors), 0, {}, {}, {}});
+  for (const auto& set : sets) terms_.push_back({name_of(set, factors), 0, {}, {}});
 
   const auto cells = find_cells(observations, factors, sets);
   cell_of_ = cells.cell_of;
