@@ -189,13 +189,13 @@ std::string power(const std::string& name, const std::string& text, const std::v
   PowerOptions options{
       .teams = teams, .alpha = alpha, .target = target, .draws = draws, .paired = paired, .seed = spec.seed};
   std::vector<Effect> list;
-  std::vector<Quantity> quantities;
+  std::vector<const StudyOutcome*> quantities;
   for (const auto& one : effects) {
     auto effect = parse_effect(one, spec);
     if (!effect.effect)
       throw Error{{Diagnostic{.id = "E0809", .message = effect.problem, .file = "effects", .hint = effect.hint}}};
     list.push_back(*effect.effect);
-    quantities.push_back(effect.effect->quantity);
+    quantities.push_back(effect.effect->outcome);
   }
   if (list.empty()) throw py::value_error{"effects must name at least one, such as 'periods: strategy'"};
   auto pool_spec = recording(spec, quantities);

@@ -137,7 +137,7 @@ domain files     libs/(maps/src/read_|domains/src/(domain_file|read_|condition|e
 explicit models  libs/(models/src/|domains/src/(check_model|explicit_family))
 policies         libs/domains/src/policy_file
 study files      libs/study/src/(study_file|read_study_spec|read_prior)
-tables of runs   libs/study/src/read_tables
+tables of runs   libs/study/src/read_records
 targets files    libs/study_design/src/(findings|effect|quantity)
 logs of people   libs/fit/src/(import_trials|import_run|open_table|vectors)
 record codec     libs/(runs/src/team_codec|files/src/bytes)

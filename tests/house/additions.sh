@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the compiler says when an event of a room or a column of a table is added and nothing else: it must name every file
-# that docs/architecture.md sends people to, and no other. Run from the root of the repository.
+# What the compiler says when an event of a room, a column of a table or an outcome of teams is added and nothing else:
+# it must name every file that docs/architecture.md sends people to, and no other. Run from the root of the repository.
 #
 #   tests/house/additions.sh COMPILER OPTION...
 set -u
@@ -56,7 +56,8 @@ for like in Continued Resumed; do
 done
 compare 'events' 'event of a room' "$(named_by_compiler live; named_by_compiler store)"
 
-# A column of a table: a member of a record and one line. What makes tables, codebook and journal compiles as it is.
+# A column of a table: a member of a record and one line. What makes and reads tables, codebook and journal compiles as
+# it is. An outcome of teams: a row.
 cp -r libs/study libs/runs "$work/libs"
 for layer in study runs; do compile=("${compile[0]}" -I"$work/libs/$layer/include" -I"$work/libs/$layer/src" "${compile[@]:1}"); done
 records=$work/libs/study/include/kith/study
@@ -64,9 +65,12 @@ sed -i '/^struct ProgressRecord {/a\  double added = 0.0;' "$records/records.hpp
 sed -i '/Declared<ProgressRecord>) {/a\  fields.column(\&ProgressRecord::added, {"added", "What was added."}, {.since = 9});' "$records/record_columns.hpp"
 [[ $(grep -c 'added' "$records/records.hpp" "$records/record_columns.hpp" | grep -c ':1$') == 2 ]] ||
   { echo "ProgressRecord is not where it was"; exit 1; }
-for file in "$work/libs/study/src/tables.cpp" "$work/libs/runs/src/team_codec.cpp"; do
+outcome='StudyOutcome{.column = "added", .of = [](const TeamRecord\& team) { return team.knowledge; }},'
+sed -i "/^constexpr std::array kOutcomes{/a $outcome" "$work/libs/study/src/outcomes.cpp"
+grep -q '"added"' "$work/libs/study/src/outcomes.cpp" || { echo "kOutcomes is not where it was"; exit 1; }
+for file in "$work"/libs/study/src/{tables,read_records,outcomes}.cpp "$work/libs/runs/src/team_codec.cpp"; do
   "${compile[@]}" "$file" && continue
-  echo "a column: $(basename "$file") has to be changed too"
+  echo "a column or an outcome: $(basename "$file") has to be changed too"
   failed=1
 done
 exit $failed

@@ -69,18 +69,16 @@ std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_featu
                                       "exam_worst_share_right: strategy", "exam_regret: group - baseline"};
   const bool has_exam = spec.exam != ExamLevel::kNone;
   if (!spec.contrasts.empty()) {
-    std::vector<std::string> outcomes{"periods", "knowledge"};
-    if (has_exam) outcomes.insert(outcomes.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
     std::vector<Effect> planned;
     for (const auto& contrast : spec.contrasts) {
-      const auto all = effects_of(contrast, spec, outcomes);
+      const auto all = effects_of(contrast, spec);
       planned.insert(planned.end(), all.begin(), all.end());
     }
     if (!planned.empty()) return planned;
   }
   std::vector<const char*> texts;
   const auto add = [&](const std::vector<const char*>& more) { texts.insert(texts.end(), more.begin(), more.end()); };
-  if (has_exam && num_features > 3) {
+  if (exam_leads(has_exam, num_features)) {
     add({"exam_regret: strategy", "exam_regret: composition", "exam_regret: strategy x composition",
          "exam_share_right: strategy", "exam_worst_share_right: strategy", "exam_regret: group - baseline"});
     add(periods);
@@ -164,8 +162,8 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   const bool same_people = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
   power.paired = options.paired || (!options.preregister.empty() && same_people);
   power.seed = options.seed.value_or(spec.seed);
-  std::vector<Quantity> quantities;
-  for (const auto& effect : effects) quantities.push_back(effect.quantity);
+  std::vector<const StudyOutcome*> quantities;
+  for (const auto& effect : effects) quantities.push_back(effect.outcome);
   auto pool_spec = recording(spec, quantities);
   pool_spec.replicates = options.pool.value_or(std::max(kDefaultPool, 2 * power.teams.back()));
   // Other teams than those of the study, whatever the seed: a plan must not have seen them.
@@ -204,10 +202,9 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   }
   std::string text;
   for (const auto& curve : curves) text += curve_text(curve, power, console);
-  for (std::size_t q = 0; q < kNumQuantities; ++q) {
-    const auto quantity = static_cast<Quantity>(q);
-    if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
-      text += cells_text(quantity, curves, cells, console);
+  for (const auto& outcome : outcomes()) {
+    if (std::find(quantities.begin(), quantities.end(), &outcome) != quantities.end())
+      text += cells_text(outcome, curves, cells, console);
   }
   console.print(
       text +

@@ -83,15 +83,15 @@ std::string assumptions_text(const StudySpec& spec, bool paired, const Console& 
   return console.dim(text);
 }
 
-std::string cells_text(Quantity quantity, std::span<const PowerCurve> curves, std::span<const EffectCells> cells,
-                       const Console& console) {
+std::string cells_text(const StudyOutcome& outcome, std::span<const PowerCurve> curves,
+                       std::span<const EffectCells> cells, const Console& console) {
   std::vector<std::string> head{"strategy", "composition", "mean", "sd"};
   std::vector<std::vector<std::string>> rows;
   std::string notes, range;
   std::size_t imposed = 0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& effect = curves[i].effect;
-    if (effect.quantity != quantity) continue;
+    if (effect.outcome != &outcome) continue;
     range = range_text(cells[i]);
     if (effect.imposed) {
       ++imposed;
@@ -118,7 +118,7 @@ std::string cells_text(Quantity quantity, std::span<const PowerCurve> curves, st
     row.resize(head.size());
     table.add(row);
   }
-  return console.bold(std::string{name_of(quantity)} + " of simulated teams") + " (can be " + range + ")\n" +
+  return console.bold(std::string{outcome.column} + " of simulated teams") + " (can be " + range + ")\n" +
          table.text(console) + console.dim(notes) + "\n";
 }
 

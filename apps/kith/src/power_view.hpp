@@ -19,9 +19,9 @@ namespace kith::cli {
 
 /// One line per size; the bar is the power, ':' the power wanted.
 [[nodiscard]] std::string curve_text(const PowerCurve& curve, const PowerOptions& options, const Console& console);
-/// What the effects of one quantity are effects on: means and standard deviations of the cells, and what imposed
+/// What the effects of one outcome are effects on: means and standard deviations of the cells, and what imposed
 /// effects make of the means. @param cells  of each curve.
-[[nodiscard]] std::string cells_text(Quantity quantity, std::span<const PowerCurve> curves,
+[[nodiscard]] std::string cells_text(const StudyOutcome& outcome, std::span<const PowerCurve> curves,
                                      std::span<const EffectCells> cells, const Console& console);
 [[nodiscard]] Json curve_json(const PowerCurve& curve, const EffectCells& cells);
 

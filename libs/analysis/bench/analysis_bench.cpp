@@ -19,17 +19,16 @@ RunTeams teams_of(std::size_t replicates, bool same_people) {
   for (std::size_t s = 0; s < 5; ++s) {
     for (std::size_t c = 0; c < 4; ++c) {
       for (std::size_t r = 0; r < replicates; ++r) {
-        const auto team = teams.team.size();
+        const auto number = teams.size();
         teams.strategy.codes.push_back(s);
         teams.composition.codes.push_back(c);
         teams.setting.emplace_back();
-        teams.replicate.push_back(std::to_string(r));
-        teams.team.push_back(std::to_string(team));
-        teams.seed_address.push_back(fmt::format("7/{}/{}", c, same_people ? r : team));
-        teams.completed.push_back(true);
-        teams.periods.push_back(static_cast<double>(4 + uniform_index(6, random)));
-        teams.knowledge.push_back(uniform01(random));
-        teams.area_sr.push_back(uniform01(random));
+        auto& team = teams.records.emplace_back();
+        team.seed_address = fmt::format("7/{}/{}", c, same_people ? r : number);
+        team.status = SessionStatus::kComplete;
+        team.periods = 4 + uniform_index(6, random);
+        team.knowledge = uniform01(random);
+        team.area_sr = uniform01(random);
       }
     }
   }
@@ -41,14 +40,13 @@ void analyse_study(benchmark::State& state, bool same_people) {
   const auto teams = teams_of(static_cast<std::size_t>(state.range(0)) / 20, same_people);
   const AnalysisOptions options;
   for (auto _ : state) {
-    for (const auto& [name, values] :
-         {std::pair{"periods", &teams.periods}, std::pair{"knowledge", &teams.knowledge}}) {
-      benchmark::DoNotOptimize(effects(teams, name, *values, options));
-      benchmark::DoNotOptimize(effects_within(teams, name, *values, options));
-      benchmark::DoNotOptimize(beliefs(teams, name, *values, options));
-      benchmark::DoNotOptimize(variation(teams, name, *values, options));
-      benchmark::DoNotOptimize(paired(teams, name, *values, options));
-      benchmark::DoNotOptimize(against_baseline(teams, name, *values, options));
+    for (const auto& [name, values] : outcomes_of(teams)) {
+      benchmark::DoNotOptimize(effects(teams, name, values, options));
+      benchmark::DoNotOptimize(effects_within(teams, name, values, options));
+      benchmark::DoNotOptimize(beliefs(teams, name, values, options));
+      benchmark::DoNotOptimize(variation(teams, name, values, options));
+      benchmark::DoNotOptimize(paired(teams, name, values, options));
+      benchmark::DoNotOptimize(against_baseline(teams, name, values, options));
     }
   }
 }

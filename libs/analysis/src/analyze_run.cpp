@@ -8,15 +8,14 @@
 #include "kith/table/column_names.hpp"
 #include "kith/toml/document.hpp"
 #include "model_means.hpp"
-#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
 namespace {
 
 std::string design_note(const RunTeams& teams) {
-  const auto skipped = std::count(teams.skipped.begin(), teams.skipped.end(), true);
-  const auto cut_off = std::count(teams.completed.begin(), teams.completed.end(), false) - skipped;
+  const auto skipped = std::ranges::count(teams.records, SessionStatus::kSkipped, &TeamRecord::status);
+  const auto cut_off = std::ranges::count(teams.records, false, &TeamRecord::completed) - skipped;
   std::string text =
       number_and_noun(teams.size(), "team") + ": " +
       (teams.strategy.levels.size() == 1 ? "1 strategy" : fmt::format("{} strategies", teams.strategy.levels.size())) +
@@ -105,7 +104,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
                              "not cover tests of all of them if those were analysed");
   const auto responses = outcomes_of(teams);
   // What a design allows is the same for all responses.
-  const auto model = team_model(teams, group_teams(teams), columns::kPeriods, teams.periods);
+  const auto model = team_model(teams, group_teams(teams), responses.front().first, responses.front().second);
   check_comparisons(model.factors, options);
   auto planned = options;
   for (auto& contrast : contrasts_of(run)) {
@@ -119,7 +118,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
   const auto add = [&](auto analyse, const std::string& otherwise) {
     bool any = false;
     for (const auto& [name, values] : responses) {
-      auto finding = analyse(teams, name, *values, for_response(planned, name));
+      auto finding = analyse(teams, name, values, for_response(planned, name));
       if (!finding) continue;
       any = true;
       analysis.findings.push_back(std::move(*finding));
@@ -138,7 +137,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
       "team beliefs against individual beliefs: needs a strategy for the team's belief (common, joint) and one "
       "for a member's (individual-low, individual-high)");
   for (const auto& [name, values] : responses) {
-    if (auto finding = variation(teams, name, *values, options)) analysis.findings.push_back(std::move(*finding));
+    if (auto finding = variation(teams, name, values, options)) analysis.findings.push_back(std::move(*finding));
   }
   add(paired, "same people, different strategies: " + without_pairs(teams));
   if (auto finding = demonstrations(teams, run, options)) {

@@ -61,7 +61,7 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
 // these assume independent rows.
 void add_survival_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
 
-// Values of an outcome with a range (OutcomeColumn) that are at one of its ends: a note, the shares of values that are
+// Values of an outcome with a range (StudyOutcome) that are at one of its ends: a note, the shares of values that are
 // exactly there (Wilson), and, of rows that belong together, tests of the same model on ranks; those of independent
 // rows are in the finding already.
 void add_bound_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);

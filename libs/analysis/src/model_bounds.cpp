@@ -5,7 +5,7 @@
 
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/tests.hpp"
-#include "kith/table/outcome.hpp"
+#include "kith/study/outcomes.hpp"
 #include "model.hpp"
 
 namespace kith {
@@ -21,7 +21,7 @@ struct Bound {
   std::size_t there = 0;  // values that are exactly this
 };
 
-std::optional<Bound> bound_of(const ModelData& data, const OutcomeColumn& range) {
+std::optional<Bound> bound_of(const ModelData& data, const StudyOutcome& range) {
   const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());
   const double near = kNearBound * (range.high - range.low);  // infinite without an upper bound
   for (const bool is_high : {false, true}) {
@@ -75,8 +75,8 @@ std::optional<ResultTable> rank_table(const ModelData& data, const AnalysisOptio
 }  // namespace
 
 void add_bound_results(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  const auto range = find_outcome(data.response);
-  if (!range || data.values.empty() || data.factors.empty()) return;
+  const auto* const range = find_outcome(data.response);
+  if (range == nullptr || data.values.empty() || data.factors.empty()) return;
   const auto bound = bound_of(data, *range);
   if (!bound) return;
   const auto [least, most] = std::minmax_element(data.values.begin(), data.values.end());

@@ -6,7 +6,6 @@
 #include "kith/random/distributions.hpp"
 #include "kith/table/column_names.hpp"
 #include "model_means.hpp"
-#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -22,22 +21,21 @@ RunTeams made_up_teams(const PlannedDesign& design) {
   for (std::size_t s = 0; s < design.strategies.size(); ++s) {
     for (std::size_t c = 0; c < design.compositions.size(); ++c) {
       for (std::size_t r = 0; r < kReplicates; ++r) {
-        const auto people = c * kReplicates + r, team = teams.team.size();
+        const auto people = c * kReplicates + r, team = teams.size();
         teams.strategy.codes.push_back(s);
         teams.composition.codes.push_back(c);
         teams.setting.emplace_back();
-        teams.replicate.push_back(std::to_string(r + 1));
-        teams.team.push_back(std::to_string(team + 1));
-        teams.seed_address.push_back(std::to_string(design.same_people ? people : team));
-        teams.completed.push_back(true);
+        TeamRecord record;
+        record.seed_address = std::to_string(design.same_people ? people : team);
+        record.status = SessionStatus::kComplete;
         // Between 1 and 4, and so with less spread than Poisson's counts, as the periods of simulated teams have.
-        teams.periods.push_back(1.0 + static_cast<double>(uniform_index(4, random)));
-        teams.knowledge.push_back(uniform01(random));
-        teams.area_sr.push_back(uniform01(random));
-        if (!design.has_exam) continue;
-        teams.exam_share_right.push_back(uniform01(random));
-        teams.exam_regret.push_back(uniform01(random));
-        teams.exam_worst_share_right.push_back(uniform01(random));
+        record.periods = 1 + uniform_index(4, random);
+        record.knowledge = uniform01(random);
+        record.area_sr = uniform01(random);
+        if (design.has_exam)
+          record.exam = {
+              .share_right = uniform01(random), .regret = uniform01(random), .worst_share_right = uniform01(random)};
+        teams.records.push_back(std::move(record));
       }
     }
   }
@@ -67,7 +65,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
 
   const auto responses = outcomes_of(teams);
   if (!rows.empty()) {
-    const auto factors = team_model(teams, rows, columns::kKnowledge, teams.knowledge).factors;
+    const auto factors = team_model(teams, rows, responses.front().first, responses.front().second).factors;
     std::vector<PlannedContrast> testable;
     for (const auto& contrast : design.contrasts) {
       if (is_testable(factors, contrast)) testable.push_back(contrast);
@@ -81,15 +79,15 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
         if (!one.primary && (one.response.empty() || one.response == name)) contrasts.push_back(one);
       }
       planned.contrasts.insert(planned.contrasts.end(), contrasts.begin(), contrasts.end());
-      add(effects(teams, name, *values, planned), contrasts);
+      add(effects(teams, name, values, planned), contrasts);
     }
 
-    for (const auto& [name, values] : responses) add(effects_within(teams, name, *values, options), {});
-    for (const auto& [name, values] : responses) add(beliefs(teams, name, *values, options), {});
-    for (const auto& [name, values] : responses) add(variation(teams, name, *values, options), {});
-    for (const auto& [name, values] : responses) add(paired(teams, name, *values, options), {});
+    for (const auto& [name, values] : responses) add(effects_within(teams, name, values, options), {});
+    for (const auto& [name, values] : responses) add(beliefs(teams, name, values, options), {});
+    for (const auto& [name, values] : responses) add(variation(teams, name, values, options), {});
+    for (const auto& [name, values] : responses) add(paired(teams, name, values, options), {});
   }
-  for (const auto& [name, values] : responses) add(against_baseline(teams, name, *values, options), {});
+  for (const auto& [name, values] : responses) add(against_baseline(teams, name, values, options), {});
   return plan;
 }
 

@@ -9,7 +9,6 @@
 #include "kith/stats/nested_model.hpp"
 #include "kith/table/column_names.hpp"
 #include "model_means.hpp"
-#include "outcomes.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
 
@@ -74,7 +73,7 @@ PeopleDifferences differences_of_people(const RunTeams& teams, const BeliefTeams
   std::map<std::string, Sums> people;
   for (std::size_t i = 0; i < beliefs.rows.size(); ++i) {
     const auto row = beliefs.rows[i];
-    auto& sums = people[teams.setting[row] + teams.seed_address[row]];
+    auto& sums = people[teams.people(row)];
     sums.composition = teams.composition.codes[row];
     sums.sum.at(beliefs.belief.codes[i]) += values[row];
     ++sums.n.at(beliefs.belief.codes[i]);
@@ -136,16 +135,16 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
   if (!found) return std::nullopt;
   const auto model = team_model(teams, found->rows, response, values);
   const auto fit = effects_of(model, options.alpha);
-  const auto words = outcome_words(response);
+  const auto& outcome = outcome_named(response);
   Finding finding{.id = response + "-beliefs",
                   .topic = "Team beliefs against individual beliefs",
-                  .response = std::string{words.label},
+                  .response = std::string{outcome.name},
                   .question = fmt::format("Do demonstrations chosen for the team's belief ({}) lead to {} than those "
                                           "chosen for one member's belief ({})?",
-                                          with_and(found->team), words.better, with_and(found->individual)),
+                                          with_and(found->team), outcome.better, with_and(found->individual)),
                   .model = formula_text(model)};
   finding.sentence = fmt::format(
-      "Planned contrast of {} ({} teams{}).", words.label, model.values.size(),
+      "Planned contrast of {} ({} teams{}).", outcome.name, model.values.size(),
       model.groups.empty() ? std::string{}
                            : " of " + number_and_noun(model.groups.front().levels.size(), "group") + " of people");
   if (!fit) {
@@ -177,7 +176,7 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
                                  const AnalysisOptions& options) {
   const auto found = belief_teams(teams);
   if (!found) return std::nullopt;
-  const auto label = outcome_words(response).label;
+  const auto label = outcome_named(response).name;
   Finding finding{.id = response + "-variation",
                   .topic = fmt::format("Variation of {} under team and individual beliefs", label),
                   .question = response == columns::kPeriods

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "kith/core/error.hpp"
 #include "kith/stats/moments.hpp"
+#include "kith/study/read_records.hpp"
 #include "kith/table/column_names.hpp"
 #include "run_findings.hpp"
 
@@ -13,8 +13,6 @@ namespace kith {
 namespace {
 
 using Kind = ResultKind;
-
-const std::vector<std::string> kColumns{columns::kTeam, columns::kPeriod, columns::kComponent, columns::kAreaSr};
 
 // "from -2.1 (joint) to -1.8 (common)": from the strategy that conveys most (the smallest area) to the one that conveys
 // least.
@@ -62,41 +60,39 @@ std::vector<std::size_t> complete_people(const RunTeams& teams, const std::vecto
 }  // namespace
 
 ConveyedAreas read_areas(const RunTeams& teams, const PublishedRun& run) {
-  std::unordered_map<std::string, std::size_t> position;
-  for (std::size_t i = 0; i < teams.size(); ++i) position.emplace(teams.team[i], i);
+  std::unordered_map<std::size_t, std::size_t> position;
+  for (std::size_t i = 0; i < teams.size(); ++i) position.emplace(teams.records[i].address.team, i);
   ConveyedAreas areas;
   const std::string table = "tables/periods.csv";
   if (!run.has(table)) return areas;
-  const auto data = Dataset::parse(run.read(table), (run.folder() / table).string(), kColumns);
-  const auto team = data.factor(columns::kTeam);
-  const auto component = data.factor(columns::kComponent);
-  const auto area = data.numbers(columns::kAreaSr);
+  std::size_t team = 0, component = 0, n = 0;  // and periods of the component so far
   double sum = 0.0;
-  std::size_t n = 0;  // periods of the component so far
-  const auto finish = [&](std::size_t row) {
-    const auto found = position.find(team.levels[team.codes[row]]);
-    if (found == position.end()) return;
-    if (n < 2 || teams.is_baseline(found->second)) return;
+  const auto finish = [&] {
+    const auto found = position.find(team);
+    if (n < 2 || found == position.end() || teams.is_baseline(found->second)) return;
     areas.team.push_back(found->second);
-    areas.component.push_back(component.levels[component.codes[row]]);
+    areas.component.push_back(std::to_string(component));
     areas.mean_log_area.push_back(sum / static_cast<double>(n - 1));
   };
-  for (std::size_t i = 0; i < data.num_rows(); ++i) {
-    const bool begins = i == 0 || team.codes[i] != team.codes[i - 1] || component.codes[i] != component.codes[i - 1];
-    if (begins) {
-      if (i > 0) finish(i - 1);
-      sum = 0.0;
-      n = 0;
-    }
-    if (++n > 1 && area[i] && *area[i] > 0.0) sum += std::log(*area[i]);
-  }
-  if (data.num_rows() > 0) finish(data.num_rows() - 1);
+  const auto text = run.read(table);
+  read_records<PeriodRecord>({text, (run.folder() / table).string()}, {columns::kComponent, columns::kAreaSr},
+                             [&](const RecordRow& row, const PeriodRecord& period) {
+                               if (row.address.team != team || period.component != component) {
+                                 finish();
+                                 team = row.address.team;
+                                 component = period.component;
+                                 sum = 0.0;
+                                 n = 0;
+                               }
+                               if (++n > 1 && period.area_sr > 0.0) sum += std::log(period.area_sr);
+                             });
+  finish();
   return areas;
 }
 
 std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun& run, const AnalysisOptions& options) {
   const auto rows = group_teams(teams);
-  const auto model = team_model(teams, rows, columns::kAreaSr, teams.area_sr);
+  const auto model = team_model(teams, rows, columns::kAreaSr, teams.values(outcome_named(columns::kAreaSr)));
   if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
   auto finding = analyze_model(model, options);
   finding.id = "demonstrations";

@@ -4,7 +4,6 @@
 
 #include "kith/stats/clustered_tests.hpp"
 #include "kith/stats/nested_model.hpp"
-#include "outcomes.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
 
@@ -59,10 +58,10 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   std::vector<std::string> names;
   for (const auto& factor : model.factors) names.push_back(factor.name);
   finding.topic = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names);
-  const auto words = outcome_words(response);
-  finding.response = words.label;
+  const auto& outcome = outcome_named(response);
+  finding.response = outcome.name;
   finding.question = fmt::format("{} {} depend on how a group is taught and who is in it?",
-                                 words.is_plural ? "Do" : "Does", words.label);
+                                 outcome.is_plural ? "Do" : "Does", outcome.name);
   if (!model.groups.empty()) add_as_published(model, options, finding);
   return finding;
 }
@@ -74,7 +73,7 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
   if (compositions.levels.size() < 2 || selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
   const bool is_corrected = options.correction != Correction::kNone;
   const std::string name{to_string(options.correction)};
-  const auto label = outcome_words(response).label;
+  const auto label = outcome_named(response).name;
   const auto correction = is_corrected ? name + " correction" : std::string{"no correction"};
   Finding finding{.id = response + "-within-composition",
                   .topic = "Strategy within each composition",

@@ -9,7 +9,6 @@
 #include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/table/column_names.hpp"
-#include "outcomes.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
 
@@ -32,7 +31,7 @@ Blocks blocks_of(const RunTeams& teams, const std::vector<double>& values) {
   std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = rows[i];
-    const auto [entry, is_new] = known.emplace(teams.setting[row] + teams.seed_address[row], known.size());
+    const auto [entry, is_new] = known.emplace(teams.people(row), known.size());
     if (is_new) {
       blocks.values.emplace_back(strategy.levels.size());
       blocks.compositions.push_back(teams.composition.levels[teams.composition.codes[row]]);
@@ -172,7 +171,7 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
     return std::count_if(block.begin(), block.end(), [](const auto& value) { return value.has_value(); }) > 1;
   });
   if (!shared) return std::nullopt;
-  const auto label = outcome_words(response).label;
+  const auto label = outcome_named(response).name;
   Finding finding{.id = response + "-paired",
                   .topic = "Same people, different strategies",
                   .response = std::string{label},
@@ -232,7 +231,7 @@ std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& 
   };
   std::map<std::string, Block> blocks;
   for (std::size_t i = 0; i < teams.size(); ++i) {
-    auto& block = blocks[teams.setting[i] + teams.seed_address[i]];
+    auto& block = blocks[teams.people(i)];
     if (teams.is_baseline(i)) {
       block.alone = values[i];
     } else {
@@ -329,17 +328,17 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
   std::vector<double> group, alone;
   for (std::size_t i = 0; i < teams.size(); ++i) (teams.is_baseline(i) ? alone : group).push_back(values[i]);
   if (group.empty() || alone.empty()) return std::nullopt;
-  const auto words = outcome_words(response);
+  const auto& outcome = outcome_named(response);
   Finding finding{.id = response + "-baseline",
                   .topic = "Taught together or alone",
-                  .response = std::string{words.label},
+                  .response = std::string{outcome.name},
                   .question = response == columns::kPeriods
                                   ? "Does teaching together change how many periods are needed?"
-                                  : fmt::format("Does teaching together change final {}?", words.label),
+                                  : fmt::format("Does teaching together change final {}?", outcome.name),
                   .model = response + " ~ taught together or alone"};
   finding.sentence = fmt::format(
-      "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", words.label,
-      words.is_plural ? "were" : "was", formatted(mean(group), Kind::kNumber), number_and_noun(group.size(), "group"),
+      "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", outcome.name,
+      outcome.is_plural ? "were" : "was", formatted(mean(group), Kind::kNumber), number_and_noun(group.size(), "group"),
       formatted(mean(alone), Kind::kNumber), number_and_noun(alone.size(), "group"));
   const auto [together, apart] = same_people(teams, values);
   if (together.empty()) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "model_means.hpp"
-#include "outcomes.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
 
@@ -42,12 +41,12 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
     const auto outcomes = outcomes_of(teams);
     const auto values = std::find_if(outcomes.begin(), outcomes.end(),
                                      [&](const auto& outcome) { return outcome.first == hypothesis.response; });
-    const auto model = team_model(teams, rows, hypothesis.response, *values->second);
+    const auto model = team_model(teams, rows, hypothesis.response, values->second);
     const auto formula = formula_text(model);
     if (finding.model.find(formula) == std::string::npos)
       finding.model += (finding.model.empty() ? "" : "; ") + formula;
     auto& result = family.comparisons.emplace_back(
-        ComparisonResult{.name = std::string{outcome_words(hypothesis.response).label} + ": " + hypothesis.name,
+        ComparisonResult{.name = std::string{outcome_named(hypothesis.response).name} + ": " + hypothesis.name,
                          .response = hypothesis.response});
     const auto fit = effects_of(model, options.alpha);
     if (!fit) {

@@ -3,45 +3,40 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/dataset.hpp"
 #include "kith/core/baseline.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/study/outcomes.hpp"
 #include "model.hpp"
 
 namespace kith {
 
-// The teams of a run, column by column; one element per team.
+// The teams of a run, and what they are compared by; one element per team.
 struct RunTeams {
   Factor strategy;
   Factor composition;
   std::vector<Factor> varied;        // the study's varied keys
   std::vector<std::string> setting;  // all of the varied keys together, "" without any
-  std::vector<std::string> replicate;
-  std::vector<std::string> seed_address;
-  std::vector<std::string> team;
-  std::vector<bool> completed;
-  std::vector<bool> skipped;  // left components out; empty if the table does not say how teams ended
-  std::vector<double> periods;
-  std::vector<double> knowledge;
-  std::vector<double> area_sr;
+  std::vector<TeamRecord> records;
   std::size_t num_features = 0;  // of the domain; 0 if the run does not say
-  // Of the exam at the end; empty if the teams were not examined.
-  std::vector<double> exam_share_right;
-  std::vector<double> exam_regret;
-  std::vector<double> exam_worst_share_right;
 
-  [[nodiscard]] bool has_exam() const noexcept { return !exam_share_right.empty(); }
-  // Beyond three features knowledge says little: the exam says more.
-  [[nodiscard]] bool leads_with_exam() const noexcept { return has_exam() && num_features > 3; }
-  [[nodiscard]] std::size_t size() const noexcept { return team.size(); }
+  [[nodiscard]] bool has_exam() const { return !records.empty() && records.front().exam.has_value(); }
+  [[nodiscard]] std::size_t size() const noexcept { return records.size(); }
   [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaseline; }
+  // Who is in a team: a seed address says who is taught, and settings that vary may change what these people are like.
+  [[nodiscard]] std::string people(std::size_t i) const { return setting[i] + records[i].seed_address; }
+  [[nodiscard]] std::vector<double> values(const StudyOutcome& outcome) const;
 };
 
 // @throws kith::Error as analyze_run does.
 [[nodiscard]] RunTeams read_teams(const PublishedRun& run);
+
+// The outcomes that a run has, in the order in which they are analysed: columns of teams.csv and their values.
+[[nodiscard]] std::vector<std::pair<std::string, std::vector<double>>> outcomes_of(const RunTeams& teams);
 
 // The positions of teams that were taught as groups.
 [[nodiscard]] std::vector<std::size_t> group_teams(const RunTeams& teams);

@@ -41,11 +41,11 @@ class RunTest : public ::testing::Test {
   static std::string row(const std::string& strategy, const std::string& composition, int replicate, int team,
                          int periods, double knowledge) {
     return strategy + "," + composition + "," + std::to_string(replicate) + "," + std::to_string(team) + ",7/" +
-           composition + "/" + std::to_string(replicate) + ",true," + std::to_string(periods) + "," +
+           composition + "/" + std::to_string(replicate) + ",complete," + std::to_string(periods) + "," +
            std::to_string(knowledge) + ",0.3\n";
   }
   static std::string teams() {
-    std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+    std::string text = "strategy,composition,replicate,team,seed_address,status,periods,knowledge,area_sr\n";
     int team = 0;
     for (const std::string strategy : {"baseline", "common", "joint"}) {
       for (const std::string composition : {"NNN", "PPP"}) {
@@ -144,7 +144,7 @@ TEST_F(RunTest, RenamedHeadingsChangeNoParagraph) {
 // Exams are analysed as knowledge is, where teams.csv has them.
 TEST_F(RunTest, AnalysesTheExamAsAMeasurement) {
   std::string text =
-      "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr,exam_share_right,"
+      "strategy,composition,replicate,team,seed_address,status,periods,knowledge,area_sr,exam_share_right,"
       "exam_regret,exam_worst_share_right\n";
   int team = 0;
   for (const std::string strategy : {"joint", "plan"}) {
@@ -172,7 +172,7 @@ TEST_F(RunTest, AnalysesTheExamAsAMeasurement) {
 
 // Composition differs between people: four of each, so F(1, 6), whatever the number of strategies that taught them.
 TEST_F(RunTest, ComparesCompositionsBetweenPeople) {
-  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  std::string text = "strategy,composition,replicate,team,seed_address,status,periods,knowledge,area_sr\n";
   std::vector<double> means;
   Factor composition{"composition", {"NNN", "PPP"}, {}};
   int team = 0;
@@ -303,7 +303,7 @@ TEST_F(RunTest, ListsTheComparisonWithTeachingAloneInItsTable) {
 // The baseline and one group strategy, as in studies/quick.toml: nothing can be said of pairs of group strategies, but
 // the same people were taught both ways.
 TEST_F(RunTest, ComparesTogetherAndAloneOnTheSamePeople) {
-  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  std::string text = "strategy,composition,replicate,team,seed_address,status,periods,knowledge,area_sr\n";
   for (int i = 0; i < 3; ++i) text += row("baseline", "NP", i, i, 10 + 2 * i, 0.5);
   for (int i = 0; i < 3; ++i) text += row("common", "NP", i, 3 + i, 6 + i, 0.6);
   write("teams.csv", text);
@@ -415,18 +415,18 @@ TEST_F(RunTest, RefusesFoldersWithoutResults) {
 }
 
 TEST_F(RunTest, RefusesDamagedTables) {
-  write("teams.csv", "strategy,composition,replicate,team,seed_address,completed,periods,knowledge\n");
+  write("teams.csv", "strategy,composition,replicate,team,seed_address,status,periods,knowledge\n");
   EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0502"}}));
   auto text = teams();
-  text.replace(text.find("7/NNN/1,true,"), 14, "7/NNN/1,true,x");
+  text.replace(text.find("7/NNN/1,complete,"), 18, "7/NNN/1,complete,x");
   write("teams.csv", text);
-  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0902"}}));
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0506"}}));
   write("teams.csv", teams() + row("joint", "PPP", 5, 25, 5, 0.5).replace(0, 5, ""));
-  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0903"}}));
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0503"}}));
 }
 
 TEST_F(RunTest, SaysWhatADesignDoesNotAllow) {
-  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  std::string text = "strategy,composition,replicate,team,seed_address,status,periods,knowledge,area_sr\n";
   for (int i = 1; i <= 3; ++i) text += row("joint", "NNN", i, i, 7 + i, 0.5);
   write("teams.csv", text);
   EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInfeasible, std::string{"E0906"}}));

@@ -18,9 +18,15 @@ using testing::kStudies;
 using testing::p_of;
 using testing::Rates;
 
-// Teams of a study without effects. `periods` are counts if everybody was taught once, else any numbers.
-RunTeams null_study(bool same_people, RandomStream& random) {
+struct NullStudy {
   RunTeams teams;
+  std::vector<double> periods, knowledge, area_sr;
+};
+
+// Teams of a study without effects. `periods` are counts if everybody was taught once, else any numbers.
+NullStudy null_study(bool same_people, RandomStream& random) {
+  NullStudy study;
+  auto& teams = study.teams;
   teams.strategy = {"strategy", {"baseline", "individual-low", "individual-high", "common", "joint"}, {}};
   teams.composition = {"composition", {"NNN", "PPP"}, {}};
   constexpr std::size_t kReplicates = 10;
@@ -38,25 +44,24 @@ RunTeams null_study(bool same_people, RandomStream& random) {
         teams.strategy.codes.push_back(strategy);
         teams.composition.codes.push_back(composition);
         teams.setting.emplace_back();
-        teams.replicate.push_back(std::to_string(replicate));
-        teams.team.push_back(std::to_string(teams.team.size()));
-        teams.seed_address.push_back(same_people ? fmt::format("7/{}", people)
-                                                 : fmt::format("7/{}", teams.team.back()));
-        teams.completed.push_back(true);
-        teams.periods.push_back(same_people ? 8.0 + shared + standard_normal(random)
+        auto& team = teams.records.emplace_back();
+        team.seed_address = fmt::format("7/{}", same_people ? people : teams.size());
+        team.status = SessionStatus::kComplete;
+        study.periods.push_back(same_people ? 8.0 + shared + standard_normal(random)
                                             : static_cast<double>(2 + binomial(8, 0.7, random)));
-        teams.knowledge.push_back((same_people ? knowledge_of[people] : 0.0) + standard_normal(random));
-        teams.area_sr.push_back(std::exp(0.18 * ((same_people ? area_of[people] : 0.0) + standard_normal(of_areas))));
+        study.knowledge.push_back((same_people ? knowledge_of[people] : 0.0) + standard_normal(random));
+        study.area_sr.push_back(std::exp(0.18 * ((same_people ? area_of[people] : 0.0) + standard_normal(of_areas))));
       }
     }
   }
-  return teams;
+  return study;
 }
 
-void add_study(const RunTeams& teams, bool same_people, Rates& rates) {
+void add_study(const NullStudy& study, bool same_people, Rates& rates) {
+  const auto& teams = study.teams;
   const std::string kind = same_people ? "Study, same people: " : "Study, other people: ";
   const AnalysisOptions how;
-  const auto main = *effects(teams, "knowledge", teams.knowledge, how);
+  const auto main = *effects(teams, "knowledge", study.knowledge, how);
   const auto* const tests = same_people ? "Tests of the fixed" : "Analysis of variance (type II)";
   for (const auto* term : {"strategy", "composition", "strategy:composition"})
     rates.add(kind + "`knowledge`, " + term, p_of(main, tests, term));
@@ -68,29 +73,29 @@ void add_study(const RunTeams& teams, bool same_people, Rates& rates) {
                 "comparison only, with a warning");
   }
   // The first part of `demonstrations`: areas, whose skewness is about .8, as in the paper's study.
-  const auto areas = *effects(teams, "area_sr", teams.area_sr, how);
+  const auto areas = *effects(teams, "area_sr", study.area_sr, how);
   for (const auto* term : {"strategy", "composition", "strategy:composition"})
     rates.add(kind + "`demonstrations`, " + term, p_of(areas, tests, term));
-  const auto within = *effects_within(teams, "knowledge", teams.knowledge, how);
+  const auto within = *effects_within(teams, "knowledge", study.knowledge, how);
   rates.add(kind + "`knowledge-within-composition`, any", p_of(within, "", "", "corrected p-value"));
   rates.add(kind + (same_people ? "Friedman" : "Kruskal-Wallis") + " in one composition",
             p_of(within, "", "NNN", same_people ? "Friedman p-value" : "Kruskal-Wallis p-value"));
-  const auto belief = *beliefs(teams, "knowledge", teams.knowledge, how);
+  const auto belief = *beliefs(teams, "knowledge", study.knowledge, how);
   rates.add(kind + "`knowledge-beliefs`", p_of(belief, "Planned contrasts", "team beliefs - individual beliefs"));
   rates.add(kind + "`knowledge-beliefs`, at each composition, any",
             p_of(belief, "Planned contrasts of strategy at each", "", "corrected p-value"));
   rates.add(kind + "`knowledge-beliefs`, dependence on composition", p_of(belief, "Does the difference", ""));
-  const auto varied = *variation(teams, "periods", teams.periods, how);
+  const auto varied = *variation(teams, "periods", study.periods, how);
   rates.add(kind + "`periods-variation`, variance ratio",
             p_of(varied, "Variance", "all", same_people ? "p-value, jackknife" : "p-value, F"),
             same_people ? ""
                         : "the values of this simulation, like periods, have lighter tails than the normal "
                           "distribution that the F test assumes");
   rates.add(kind + "`periods-variation`, Brown-Forsythe", p_of(varied, "Variance", "all", "p-value, Brown-Forsythe"));
-  const auto alone = *against_baseline(teams, "knowledge", teams.knowledge, how);
+  const auto alone = *against_baseline(teams, "knowledge", study.knowledge, how);
   rates.add(kind + "`knowledge-baseline`", p_of(alone, "", "together - alone"));
   if (!same_people) return;
-  const auto pairs = *paired(teams, "knowledge", teams.knowledge, how);
+  const auto pairs = *paired(teams, "knowledge", study.knowledge, how);
   rates.add(kind + "`knowledge-paired`, any pair (Holm)", p_of(pairs, "Differences within", "", "corrected p-value"),
             "the pairs depend on each other, which Holm's correction does not use");
   rates.add(kind + "within people, Mauchly", p_of(pairs, "Corrections", "strategy", "p-value, Mauchly"));

@@ -1,13 +1,9 @@
 #include "kith/fit/import_run.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <functional>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "kith/bec/atlas.hpp"
@@ -15,41 +11,31 @@
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/runs/run_folder.hpp"
+#include "kith/study/read_records.hpp"
 #include "kith/study/study.hpp"
 #include "kith/table/column_names.hpp"
 #include "open_table.hpp"
-#include "vectors.hpp"
 
 namespace kith {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::OpenRow;
-
-Column needed(std::string name, ColumnType type) {
-  return {.name = std::move(name), .type = type, .description = {}, .unit = {}, .required = true};
-}
 
 // Member of a team; 0: everybody in it.
 struct Seat {
-  std::int64_t team = 0;
-  std::int64_t member = 0;
+  std::size_t team = 0;
+  std::size_t member = 0;
   friend auto operator<=>(const Seat&, const Seat&) = default;
 };
 
 struct Shown {
-  std::int64_t component = 1;
+  std::size_t component = 1;
   std::vector<HalfSpace> half_spaces;
 };
 
 struct Answered {
-  std::int64_t test = 0;
-  std::int64_t component = 1;
+  ResponseRecord response;
   StartIndex demo;
-  bool correct = false;
-  std::optional<IntegerVector> answer{};
-  std::vector<HalfSpace> covered;
-  std::size_t line = 0;
 };
 
 class RunImport {
@@ -68,7 +54,6 @@ class RunImport {
     read_learners();
     read_demonstrations();
     read_responses();
-    detail::throw_if_errors(logs_.notes);
     if (types_.empty() || answers_.empty()) {
       throw Error{{detail::fault("E0705", "there is not a single answer", tables_ / "responses.csv", 0)}};
     }
@@ -154,143 +139,77 @@ class RunImport {
     }
   }
 
-  void read_table(const std::string& file, std::vector<Column> required, std::vector<Column> optional,
-                  std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
-    detail::read_open_csv(run_.read("tables/" + file), (tables_ / file).string(), std::move(required),
-                          std::move(optional), diagnostics, on_row);
-  }
-
-  void complain(const std::string& file, std::size_t line, const std::string& id, const std::string& message) {
-    if (logs_.notes.size() < 20) logs_.notes.push_back(detail::fault(id, message, tables_ / file, line));
-  }
-
-  [[nodiscard]] bool check_team(const std::string& file, const OpenRow& row) {
-    const auto team = row.integer(columns::kTeam).value_or(0);
-    if (team >= 1 && static_cast<std::size_t>(team) <= addresses_.size()) return true;
-    complain(file, row.line(), "E0708", "there is no team " + std::to_string(team) + " in inputs/study.toml");
-    return false;
+  template <typename Record, typename OnRecord>
+  void read_table(const std::string& table, const std::vector<std::string_view>& wanted, OnRecord on_record) {
+    const auto text = run_.read("tables/" + table);
+    read_records<Record>({text, (tables_ / table).string(), &*study_.study, addresses_}, wanted, on_record);
   }
 
   void read_learners() {
-    const std::string file = "learners.csv";
-    read_table(file,
-               {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kMember, ColumnType::kInteger),
-                needed(columns::kType, ColumnType::kText)},
-               {{.name = "ability", .type = ColumnType::kReal},
-                {.name = "confirm_gain", .type = ColumnType::kReal},
-                {.name = "correct_gain", .type = ColumnType::kReal}},
-               logs_.notes, [&](const OpenRow& row) {
-                 if (!check_team(file, row)) return;
-                 const auto type = *row.text(columns::kType);
-                 const auto variant = addresses_[static_cast<std::size_t>(*row.integer(columns::kTeam)) - 1].variant;
-                 if (type.size() != 1 || !models_of_[variant].contains(type[0])) {
-                   complain(file, row.line(), "E0708", "there is no learner type '" + type + "' in inputs/study.toml");
-                   return;
-                 }
-                 const Seat seat{*row.integer(columns::kTeam), *row.integer(columns::kMember)};
-                 types_[seat] = type;
-                 const auto ability = row.real("ability"), confirm = row.real("confirm_gain"),
-                            correct = row.real("correct_gain");
-                 if (ability && confirm && correct) truths_[seat] = {*ability, *confirm, *correct};
-               });
-  }
-
-  [[nodiscard]] std::size_t num_features() const { return atlas_->domain().num_features(); }
-
-  // The half-spaces of a cell, or nothing after complaining.
-  std::vector<HalfSpace> half_spaces(const std::string& file, const OpenRow& row, const std::string& column) {
-    const auto parsed = detail::parse_half_spaces(row.text(column).value_or(""), num_features());
-    if (!parsed)
-      complain(file, row.line(), "E0707",
-               "'" + column + "' does not hold half-spaces, normals of " + std::to_string(num_features()) +
-                   " whole numbers each, such as 1 0 -4;0 -1 2");
-    return parsed.value_or(std::vector<HalfSpace>{});
-  }
-
-  void read_demonstrations() {
-    const std::string file = "demonstrations.csv";
-    read_table(file,
-               {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kPeriod, ColumnType::kInteger),
-                needed(columns::kComponent, ColumnType::kInteger), needed(columns::kMdp, ColumnType::kInteger),
-                needed(columns::kStart, ColumnType::kInteger), needed(columns::kConstraint, ColumnType::kText)},
-               {{.name = columns::kMember, .type = ColumnType::kInteger}}, logs_.notes, [&](const OpenRow& row) {
-                 if (!check_team(file, row)) return;
-                 auto& shown = shown_[{*row.integer(columns::kTeam), row.integer(columns::kMember).value_or(0)}]
-                                     [*row.integer(columns::kPeriod)];
-                 shown.component = *row.integer(columns::kComponent);
-                 const auto conveyed = half_spaces(file, row, columns::kConstraint);
-                 shown.half_spaces.insert(shown.half_spaces.end(), conveyed.begin(), conveyed.end());
-                 static_cast<void>(start_of(file, row));
-               });
-  }
-
-  void read_responses() {
-    const std::string file = "responses.csv";
-    read_table(
-        file,
-        {needed(columns::kTeam, ColumnType::kInteger), needed(columns::kPeriod, ColumnType::kInteger),
-         needed(columns::kComponent, ColumnType::kInteger), needed(columns::kTest, ColumnType::kInteger),
-         needed(columns::kMember, ColumnType::kInteger), needed(columns::kMdp, ColumnType::kInteger),
-         needed(columns::kStart, ColumnType::kInteger), needed(columns::kCorrect, ColumnType::kBoolean),
-         needed(columns::kCovered, ColumnType::kText)},
-        {{.name = columns::kAnswer, .type = ColumnType::kText}}, logs_.notes, [&](const OpenRow& row) {
-          if (!check_team(file, row)) return;
-          if (const auto answered = response_of(file, row)) {
-            answers_[{*row.integer(columns::kTeam), *row.integer(columns::kMember)}][*row.integer(columns::kPeriod)]
-                .push_back(*answered);
-          }
+    read_table<LearnerRecord>(
+        "learners.csv", {columns::kMember, columns::kType, "ability", "confirm_gain", "correct_gain"},
+        [&](const RecordRow& row, const LearnerRecord& learner) {
+          const auto& types = study_.study->variants[row.address.variant].learner_types;
+          const auto type = std::ranges::find(types, learner.type, &LearnerType::letter);
+          if (type == types.end())
+            row.refuse("E0708", std::string{"there is no learner type '"} + learner.type + "' in inputs/study.toml",
+                       "");
+          const Seat seat{row.address.team, learner.member};
+          types_[seat] = learner.type;
+          const auto& traits = learner.traits;  // of the kind 'bayesian'
+          if (traits.size() == 3) truths_[seat] = {traits[0], traits[1], traits[2]};
         });
   }
 
-  // Where a demonstration or a test of a row starts, or nothing after complaining.
-  std::optional<StartIndex> start_of(const std::string& file, const OpenRow& row) {
+  void read_demonstrations() {
+    read_table<DemonstrationRecord>(
+        "demonstrations.csv",
+        {columns::kPeriod, columns::kComponent, columns::kMdp, columns::kStart, columns::kConstraint, columns::kMember},
+        [&](const RecordRow& row, const DemonstrationRecord& record) {
+          auto& shown = shown_[{row.address.team, record.member}][record.period];
+          shown.component = record.component;
+          shown.half_spaces.insert(shown.half_spaces.end(), record.constraints.begin(), record.constraints.end());
+          static_cast<void>(start_of(row, record));
+        });
+  }
+
+  void read_responses() {
+    read_table<ResponseRecord>(
+        "responses.csv",
+        {columns::kPeriod, columns::kComponent, columns::kTest, columns::kMember, columns::kMdp, columns::kStart,
+         columns::kCorrect, columns::kCovered, columns::kAnswer},
+        [&](const RecordRow& row, const ResponseRecord& record) {
+          answers_[{row.address.team, record.member}][record.period].push_back({record, start_of(row, record)});
+        });
+  }
+
+  // Where a demonstration or a test of a row starts.
+  template <typename Record>
+  [[nodiscard]] StartIndex start_of(const RecordRow& row, const Record& record) const {
     const auto& domain = atlas_->domain();
-    const auto mdp = *row.integer(columns::kMdp);
-    const auto start = *row.integer(columns::kStart);
-    if (mdp < 0 || static_cast<std::size_t>(mdp) >= domain.num_mdps() || start < 0 ||
-        static_cast<std::size_t>(start) >= domain.mdp(MdpIndex{static_cast<std::size_t>(mdp)}).num_states()) {
-      complain(
-          file, row.line(), "E0708",
-          "there is no start " + std::to_string(start) + " of world " + std::to_string(mdp) + " in inputs/domain.toml");
-      return std::nullopt;
+    if (record.mdp >= domain.num_mdps() || record.start >= domain.mdp(MdpIndex{record.mdp}).num_states()) {
+      row.refuse("E0708",
+                 "there is no start " + std::to_string(record.start) + " of world " + std::to_string(record.mdp) +
+                     " in inputs/domain.toml",
+                 "");
     }
-    return atlas_->index({MdpIndex{static_cast<std::size_t>(mdp)}, StateIndex{static_cast<std::size_t>(start)}});
+    return atlas_->index({MdpIndex{record.mdp}, StateIndex{record.start}});
   }
 
-  std::optional<Answered> response_of(const std::string& file, const OpenRow& row) {
-    const auto demo = start_of(file, row);
-    if (!demo) return std::nullopt;
-    Answered answered{.test = *row.integer(columns::kTest),
-                      .component = *row.integer(columns::kComponent),
-                      .demo = *demo,
-                      .correct = *row.boolean(columns::kCorrect),
-                      .covered = half_spaces(file, row, columns::kCovered),
-                      .line = row.line()};
-    if (const auto text = row.text(columns::kAnswer); text && !text->empty()) {
-      answered.answer = detail::parse_counts(*text, num_features(), atlas_->domain().count_scale());
-      if (!answered.answer) {
-        complain(file, row.line(), "E0707",
-                 "'answer' does not hold " + std::to_string(num_features()) + " feature counts such as 0 1 5");
-        return std::nullopt;
-      }
-    }
-    return answered;
-  }
-
-  void add_person(const Seat& seat, const std::string& type) {
-    const auto variant = addresses_[static_cast<std::size_t>(seat.team) - 1].variant;
+  void add_person(const Seat& seat, char type) {
+    const auto variant = addresses_[seat.team - 1].variant;
     PersonLog person;
     person.id = std::to_string(seat.team) + "/" + std::to_string(seat.member);
     person.type = type;
-    person.model = models_of_[variant].at(type[0]);
+    person.model = models_of_[variant].at(type);
     if (const auto truth = truths_.find(seat); truth != truths_.end()) person.truth = truth->second;
     const auto alone = shown_.find(seat);
     const auto together = shown_.find({seat.team, 0});
     const auto& shown = alone != shown_.end()      ? alone->second
                         : together != shown_.end() ? together->second
-                                                   : std::map<std::int64_t, Shown>{};
+                                                   : std::map<std::size_t, Shown>{};
     auto& answers = answers_[seat];
-    std::set<std::int64_t> periods;
+    std::set<std::size_t> periods;
     for (const auto& [period, one] : shown) periods.insert(period);
     for (const auto& [period, list] : answers) periods.insert(period);
     for (const auto period : periods) {
@@ -302,31 +221,30 @@ class RunImport {
 
   LoggedPeriod period_of(const Shown& shown, std::vector<Answered>& answers, PersonLog& person) {
     LoggedPeriod period;
-    period.component = static_cast<std::size_t>(answers.empty() ? shown.component : answers.front().component);
+    period.component = answers.empty() ? shown.component : answers.front().response.component;
     period.conveyed = shown.half_spaces;
-    std::sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.test < b.test; });
+    std::ranges::sort(answers, {}, [](const Answered& answered) { return answered.response.test; });
     std::set<HalfSpace> possible;
-    for (const auto& answered : answers) {
-      const auto demo = answered.demo;
+    for (const auto& [response, demo] : answers) {
       if (const auto* tables = atlas_->find_tables()) {
         const auto facets = tables->finite_region(demo).facets();
         possible.insert(facets.begin(), facets.end());
       }
-      period.all_correct = period.all_correct && answered.correct;
-      for (const auto& half_space : answered.covered) {  // once, however many test sets examined it: as Session does
+      period.all_correct = period.all_correct && response.correct;
+      for (const auto& half_space : response.covered) {  // once, however many test sets examined it: as Session does
         const bool is_new = std::find(period.taught.begin(), period.taught.end(), half_space) == period.taught.end();
         if (is_new) period.taught.push_back(half_space);
       }
-      person.correct += answered.correct ? 1u : 0u;
+      person.correct += response.correct ? 1u : 0u;
       ++person.answered;
-      add_answer(period, answered, demo);
+      add_answer(period, response, demo);
     }
     period.possible.assign(possible.begin(), possible.end());
     period.feedback = !answers.empty();
     return period;
   }
 
-  void add_answer(LoggedPeriod& period, const Answered& answered, StartIndex demo) {
+  void add_answer(LoggedPeriod& period, const ResponseRecord& answered, StartIndex demo) {
     if (!answered.answer) {  // no answer at all: nothing is known of the weight
       ++num_unanswered_;
       return;
@@ -382,10 +300,10 @@ class RunImport {
   std::shared_ptr<const Atlas> atlas_;
   std::vector<TeamAddress> addresses_;
   std::vector<std::map<char, std::size_t>> models_of_;  // per variant
-  std::map<Seat, std::string> types_;
+  std::map<Seat, char> types_;
   std::map<Seat, TrueParameters> truths_;
-  std::map<Seat, std::map<std::int64_t, Shown>> shown_;
-  std::map<Seat, std::map<std::int64_t, std::vector<Answered>>> answers_;
+  std::map<Seat, std::map<std::size_t, Shown>> shown_;
+  std::map<Seat, std::map<std::size_t, std::vector<Answered>>> answers_;
   std::size_t num_unknown_paths_ = 0;
   std::size_t num_unanswered_ = 0;
   ResponseLogs logs_;

@@ -10,7 +10,6 @@
 
 #include "kith/domains/domain_file.hpp"
 #include "open_table.hpp"
-#include "vectors.hpp"
 
 namespace kith {
 namespace {

@@ -1,7 +1,6 @@
 #include "open_table.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "kith/core/error.hpp"
@@ -91,13 +90,6 @@ Diagnostic fault(std::string id, std::string message, const std::filesystem::pat
 Diagnostic note(std::string id, std::string message, const std::filesystem::path& file, std::size_t line,
                 std::string hint) {
   return diagnostic(Severity::kWarning, std::move(id), std::move(message), file, line, std::move(hint));
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream in{text};
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
 }
 
 }  // namespace kith::detail

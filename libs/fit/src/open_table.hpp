@@ -51,7 +51,4 @@ void throw_if_errors(const std::vector<Diagnostic>& diagnostics);
 [[nodiscard]] Diagnostic note(std::string id, std::string message, const std::filesystem::path& file, std::size_t line,
                               std::string hint = {});
 
-// The words of a text separated by blanks.
-[[nodiscard]] std::vector<std::string> words_of(const std::string& text);
-
 }  // namespace kith::detail

@@ -102,12 +102,12 @@ TEST_F(RunFolderImport, NamesFileAndRowOfWhatItCannotRead) {
   EXPECT_EQ(import_fault(run_), "E0506 responses.csv:2");
   put_table("responses.csv", answers);
   spoil("responses.csv", "\ncommon,NN,1,1,", "\ncommon,NN,1,77,");
-  EXPECT_EQ(import_fault(run_), "E0708 responses.csv:2");
+  EXPECT_EQ(import_fault(run_), "E0620 responses.csv:2");
 }
 
 TEST_F(RunFolderImport, RefusesCellsThatAreNoHalfSpaces) {
   spoil("demonstrations.csv", "-1 0", "-1 zero");
-  EXPECT_EQ(import_fault(run_).substr(0, 24), "E0707 demonstrations.csv");
+  EXPECT_EQ(import_fault(run_).substr(0, 24), "E0621 demonstrations.csv");
 }
 
 TEST_F(RunFolderImport, RefusesAnUnknownType) {
@@ -126,7 +126,8 @@ TEST_F(RunFolderImport, RefusesARunThatIsNotFinished) {
 }
 
 TEST_F(RunFolderImport, RefusesARunWithoutAnswers) {
-  put_table("responses.csv", "team,period,kc,test,member,mdp,start,correct,answer,covered\n");
+  const auto answers = read_file(run_ / "tables" / "responses.csv");
+  put_table("responses.csv", answers.substr(0, answers.find('\n') + 1));
   EXPECT_EQ(import_fault(run_), "E0705 responses.csv:0");
 }
 

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -38,14 +36,6 @@ const ComparisonFamily* comparisons_of(const Finding& finding, ComparisonFamily:
 }
 
 std::optional<double> p_of(const ComparisonResult& one) { return one.corrected_p ? one.corrected_p : one.p; }
-
-// What planned contrasts are about.
-constexpr std::array<std::pair<std::string_view, Quantity>, 5> kResponses{
-    {{columns::kPeriods, &TeamValues::periods},
-     {columns::kKnowledge, &TeamValues::knowledge},
-     {columns::kExamShareRight, &TeamValues::exam_share_right},
-     {columns::kExamRegret, &TeamValues::exam_regret},
-     {columns::kExamWorstShareRight, &TeamValues::exam_worst_share_right}}};
 
 // The standard deviation of teams of one cell, of all cells together.
 double spread_in_cells(const FirstScreen& screen, Quantity quantity) {
@@ -78,7 +68,7 @@ std::optional<double> p_of_term(const Finding& finding, const std::string& term)
   return std::nullopt;
 }
 
-std::string two_means(const FirstScreen& screen, const Outcome& outcome, const std::string& between) {
+std::string two_means(const FirstScreen& screen, const StudyOutcome& outcome, const std::string& between) {
   return means_text({mean(values_of(screen, outcome, false)), mean(values_of(screen, outcome, true))}, outcome.digits,
                     between);
 }
@@ -100,13 +90,13 @@ std::string not_found(const Answer& answer) {
 }
 
 // The same people taught together, whatever the strategy, and alone, or other people.
-Estimable<MeanDifference> together_against_alone(const FirstScreen& screen, const Outcome& outcome) {
+Estimable<MeanDifference> together_against_alone(const FirstScreen& screen, const StudyOutcome& outcome) {
   if (!screen.paired) return welch_t_test(values_of(screen, outcome, false), values_of(screen, outcome, true));
   std::map<std::tuple<std::size_t, std::string, std::size_t>, std::pair<Values, Values>> people;
   for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
     auto& [together, alone] =
-        people[{series_of(screen, i).variant, composition_of(screen, i), screen.data.teams[i].replicate}];
-    (is_alone(screen, i) ? alone : together).push_back(screen.data.teams[i].*outcome.value);
+        people[{series_of(screen, i).variant, composition_of(screen, i), screen.data.teams[i].address.replicate}];
+    (is_alone(screen, i) ? alone : together).push_back(outcome.of(screen.data.teams[i]));
   }
   Values together, alone;
   for (const auto& [key, values] : people) {
@@ -151,7 +141,8 @@ std::vector<Answer> plain_means(const FirstScreen& screen) {
     for (const auto& outcome : outcomes_of(screen)) {
       const auto values = values_of(screen, outcome, alone);
       if (values.empty()) continue;
-      Answer answer{alone ? "Taught one after the other" : "Taught together", outcome.name, outcome.digits};
+      Answer answer{alone ? "Taught one after the other" : "Taught together", std::string{outcome.phrase},
+                    outcome.digits};
       answer.means = means_text({mean(values)}, outcome.digits, "");
       const auto interval = mean_interval(values);
       answer.estimate = mean(values);
@@ -181,13 +172,13 @@ bool is_of_few(const Answer& answer) {
 
 bool is_shown(const Answer& answer) { return answer.p && *answer.p < AnalysisOptions{}.alpha; }
 
-Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
-  Answer answer{"Together compared with one after the other", outcome.name, outcome.digits};
+Answer answer_about_alone(const FirstScreen& screen, const StudyOutcome& outcome) {
+  Answer answer{"Together compared with one after the other", std::string{outcome.phrase}, outcome.digits};
   answer.means = two_means(screen, outcome, " and ");
   answer.teams = std::min(values_of(screen, outcome, false).size(), values_of(screen, outcome, true).size());
-  const double spread = spread_in_cells(screen, outcome.value);
+  const double spread = spread_in_cells(screen, outcome.of);
 
-  if (const auto* finding = finding_of(screen, outcome.id + "-baseline"); finding != nullptr) {
+  if (const auto* finding = finding_of(screen, std::string{outcome.column} + "-baseline"); finding != nullptr) {
     answer.finding = finding->id;
     const auto* family = comparisons_of(*finding, ComparisonFamily::Kind::kAlone);
     if (family != nullptr) {
@@ -214,11 +205,11 @@ Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
 }
 
 // A factor with many levels: the largest difference if there is one, else how large one may be.
-std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& outcome, const std::string& factor,
+std::optional<Answer> answer_about(const FirstScreen& screen, const StudyOutcome& outcome, const std::string& factor,
                                    const std::string& question) {
-  const auto* finding = finding_of(screen, outcome.id);
+  const auto* finding = finding_of(screen, std::string{outcome.column});
   if (finding == nullptr) return std::nullopt;
-  Answer answer{question, outcome.name, outcome.digits, finding->id};
+  Answer answer{question, std::string{outcome.phrase}, outcome.digits, finding->id};
   answer.p = p_of_term(*finding, factor);
   if (!answer.p) return std::nullopt;
   const auto extremes = extremes_of(*finding, factor, outcome.digits);
@@ -226,7 +217,7 @@ std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& out
   answer.teams = fewest_teams(screen, factor);
   answer.answer = extremes.answer;
 
-  const double spread = spread_in_cells(screen, outcome.value);
+  const double spread = spread_in_cells(screen, outcome.of);
   double largest = -1.0, bound = 0.0, width = 0.0;
   if (const auto* pairs = comparisons_of(*finding, ComparisonFamily::Kind::kPairs, factor); pairs != nullptr) {
     for (const auto& pair : pairs->comparisons) {
@@ -256,11 +247,10 @@ std::vector<Answer> planned(const FirstScreen& screen) {
   const auto* family = finding == nullptr ? nullptr : comparisons_of(*finding, ComparisonFamily::Kind::kPrimary);
   if (family == nullptr) return list;
   for (const auto& comparison : family->comparisons) {
-    Answer answer{finding->topic, comparison.name, comparison.response == kPeriods.id ? kPeriods.digits : 2,
+    Answer answer{finding->topic, comparison.name, comparison.response == kPeriods.column ? kPeriods.digits : 2,
                   finding->id};
-    const auto outcome =
-        std::ranges::find(kResponses, comparison.response, &std::pair<std::string_view, Quantity>::first);
-    set_difference(comparison, outcome == kResponses.end() ? 0.0 : spread_in_cells(screen, outcome->second), answer);
+    const auto* const outcome = find_outcome(comparison.response);
+    set_difference(comparison, outcome == nullptr ? 0.0 : spread_in_cells(screen, outcome->of), answer);
     answer.p = p_of(comparison);
     answer.teams = fewest_teams(screen, "strategy");
     answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : not_found(answer);

@@ -35,9 +35,9 @@ struct Answer {
 [[nodiscard]] bool is_shown(const Answer& answer);
 
 // Teams taught together compared with members taught one after the other. @pre compares_with_alone().
-[[nodiscard]] Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome);
+[[nodiscard]] Answer answer_about_alone(const FirstScreen& screen, const StudyOutcome& outcome);
 // A factor with several levels; nothing if it was not analysed.
-[[nodiscard]] std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& outcome,
+[[nodiscard]] std::optional<Answer> answer_about(const FirstScreen& screen, const StudyOutcome& outcome,
                                                  const std::string& factor, const std::string& question);
 // The differences that are marked as primary in the study.
 [[nodiscard]] std::vector<Answer> planned(const FirstScreen& screen);

@@ -168,9 +168,9 @@ Json belief_names(const RunFiles& run, const std::string& composition, std::size
 }
 
 // Whether the team came out as its row says.
-bool agrees(const TeamRecord& record, const TeamValues& row) {
+bool agrees(const TeamRecord& record, const TeamRecord& row) {
   constexpr double kTolerance = 1e-12;  // the tables hold the exact number, but it may have been written elsewhere
-  return static_cast<double>(record.periods) == row.periods && record.completed() == row.completed &&
+  return record.periods == row.periods && record.completed() == row.completed() &&
          std::abs(record.knowledge - row.knowledge) <= kTolerance;
 }
 
@@ -186,14 +186,14 @@ std::optional<Json> belief_spheres(const RunFiles& run, const ReportDesign& desi
   Json teams = Json::array();
   TeachingCache cache{atlas};
   for (const auto& [team, why] : telling_teams(design, data)) {
-    const auto& address = run.teams.addresses[team];
+    const auto& address = run.teams[team];
     const auto& series = design.series[design.cells[design.cell_of_team[team]].series];
     const auto size = address.composition.size();
-    const auto pictures = (static_cast<std::size_t>(data.teams[team].periods) + 1) * (size + 2);
+    const auto pictures = (data.teams[team].periods + 1) * (size + 2);
     const auto count = std::min(particles, kMaxTeamBytes / (kBytesPerParticle * pictures));
     if (count < std::min(particles, kFewestParticles)) {
       notes.push_back("The beliefs of team " + std::to_string(address.team) +
-                      " are left out: " + shortest(data.teams[team].periods) + " periods are too many to draw.");
+                      " are left out: " + std::to_string(data.teams[team].periods) + " periods are too many to draw.");
       continue;
     }
     const auto& spec = run.study.variants[address.variant];

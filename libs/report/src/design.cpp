@@ -44,7 +44,7 @@ std::string label_of(std::string_view code) {
 
 ReportDesign design_of(const RunFiles& run) {
   ReportDesign design;
-  for (const auto& address : run.teams.addresses) {
+  for (const auto& address : run.teams) {
     const bool same_series = !design.series.empty() && design.series.back().strategy == address.strategy &&
                              design.series.back().variant == address.variant;
     if (!same_series) design.series.push_back(series_of(run, address));

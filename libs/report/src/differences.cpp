@@ -27,17 +27,17 @@ Json difference_json(const Values& values, const Values& reference, bool paired)
 // group.
 using Level = std::map<std::pair<std::string, std::size_t>, std::size_t>;
 
-Json difference_of(const FirstScreen& screen, const Outcome& outcome, const Level& level, const Level& reference,
+Json difference_of(const FirstScreen& screen, const StudyOutcome& outcome, const Level& level, const Level& reference,
                    bool paired) {
   Values values, others;
   for (const auto& [people, team] : level) {
     const auto other = reference.find(people);
     if (paired && other == reference.end()) continue;
-    values.push_back(screen.data.teams[team].*outcome.value);
-    if (paired) others.push_back(screen.data.teams[other->second].*outcome.value);
+    values.push_back(outcome.of(screen.data.teams[team]));
+    if (paired) others.push_back(outcome.of(screen.data.teams[other->second]));
   }
   if (!paired) {
-    for (const auto& [people, team] : reference) others.push_back(screen.data.teams[team].*outcome.value);
+    for (const auto& [people, team] : reference) others.push_back(outcome.of(screen.data.teams[team]));
   }
   const auto missing = [](double value) { return !std::isfinite(value); };
   if (values.empty() || others.empty() || std::any_of(values.begin(), values.end(), missing) ||
@@ -47,12 +47,12 @@ Json difference_of(const FirstScreen& screen, const Outcome& outcome, const Leve
   return difference_json(values, others, paired);
 }
 
-Json strategy_differences(const FirstScreen& screen, const std::vector<Outcome>& outcomes) {
+Json strategy_differences(const FirstScreen& screen, const std::vector<StudyOutcome>& outcomes) {
   const auto& series = screen.design.series;
   std::vector<Level> levels(series.size());
   for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
     const auto of = screen.design.cells[screen.design.cell_of_team[i]].series;
-    levels[of][{composition_of(screen, i), screen.data.teams[i].replicate}] = i;
+    levels[of][{composition_of(screen, i), screen.data.teams[i].address.replicate}] = i;
   }
   // Each is compared with teaching alone at the same setting, or with the first strategy there, or else with the first.
   const auto reference_of = [&](std::size_t s) {
@@ -81,19 +81,19 @@ Json strategy_differences(const FirstScreen& screen, const std::vector<Outcome>&
   return {{"factor", "strategy"}, {"against", *against.begin()}, {"rows", std::move(rows)}};
 }
 
-Json composition_differences(const FirstScreen& screen, const std::vector<Outcome>& outcomes) {
+Json composition_differences(const FirstScreen& screen, const std::vector<StudyOutcome>& outcomes) {
   std::vector<std::string> codes;
   for (const auto& cell : screen.design.cells) {
     if (std::find(codes.begin(), codes.end(), cell.composition) == codes.end()) codes.push_back(cell.composition);
   }
   // A group of people counts once, with its mean over strategies.
-  const auto values_in = [&](const std::string& code, const Outcome& outcome) {
+  const auto values_in = [&](const std::string& code, const StudyOutcome& outcome) {
     std::map<std::pair<std::size_t, std::size_t>, Values> people;
     for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
-      const double value = screen.data.teams[i].*outcome.value;
+      const double value = outcome.of(screen.data.teams[i]);
       if (composition_of(screen, i) != code || !std::isfinite(value)) continue;
       if (is_alone(screen, i) && compares_with_alone(screen)) continue;
-      const auto group = screen.paired ? screen.data.teams[i].replicate : i;
+      const auto group = screen.paired ? screen.data.teams[i].address.replicate : i;
       people[{screen.paired ? series_of(screen, i).variant : 0, group}].push_back(value);
     }
     Values means;
@@ -126,7 +126,7 @@ Json differences(const FirstScreen& screen) {
   if (groups.empty()) return nullptr;
   Json names = Json::array();
   for (const auto& outcome : outcomes)
-    names.push_back({{"name", capitalised(outcome.name)}, {"digits", outcome.digits}});
+    names.push_back({{"name", capitalised(std::string{outcome.phrase})}, {"digits", outcome.digits}});
   return {{"interval", screen.paired ? "t intervals of differences within the same people" : "Welch's t intervals"},
           {"outcomes", std::move(names)},
           {"groups", std::move(groups)}};

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "kith/random/distributions.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/moments.hpp"
+#include "kith/table/column_names.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {
 namespace {
+
+const Quantity kPeriodsOf = outcome_named(columns::kPeriods).of;
 
 // The state of a team when so many periods were taught; its last one if it had fewer.
 const ExamPoint& state_after(const std::vector<ExamPoint>& path, std::size_t periods) {
@@ -40,8 +44,8 @@ std::vector<std::vector<std::size_t>> teams_of_cells(const ReportDesign& design)
 }
 
 // What the front compares: knowledge, or the share right where the exam leads.
-double known_at_end(const TeamValues& team, const RunData& data) {
-  return data.leads_with_exam ? team.exam_share_right : team.knowledge;
+double known_at_end(const TeamRecord& team, const RunData& data) {
+  return data.leads_with_exam ? team.exam->share_right : team.knowledge;
 }
 
 // How often each cell is on the front of its composition in bootstrap samples of the replicates, which all strategies
@@ -70,7 +74,7 @@ Values front_shares(const ReportDesign& design, const RunData& data, std::uint64
         const auto replicate = uniform_index(n, random);
         for (std::size_t c = 0; c < cells.size(); ++c) {
           const auto& team = data.teams[teams[cells[c]][replicate]];
-          means[c].first += team.items;
+          means[c].first += items_of(team);
           means[c].second += known_at_end(team, data);
         }
       }
@@ -83,10 +87,10 @@ Values front_shares(const ReportDesign& design, const RunData& data, std::uint64
   return shares;
 }
 
-template <typename Value>
-Values values_of(const std::vector<std::size_t>& teams, const RunData& data, Value value) {
+Values values_of(const std::vector<std::size_t>& teams, const RunData& data,
+                 const std::function<double(const TeamRecord&)>& quantity) {
   Values values;
-  for (const auto team : teams) values.push_back(value(data.teams[team]));
+  for (const auto team : teams) values.push_back(quantity(data.teams[team]));
   return values;
 }
 
@@ -153,17 +157,16 @@ Json efficiency_table(const RunFiles& run, const ReportDesign& design, const Run
       if (design.cells[other].composition != design.cells[c].composition || teams[other].empty()) continue;
       if (other == c) own = rivals.size();
       rivals.emplace_back(
-          mean(values_of(teams[other], data, [](const auto& team) { return team.items; })),
+          mean(values_of(teams[other], data, items_of)),
           mean(values_of(teams[other], data, [&](const auto& team) { return known_at_end(team, data); })));
     }
 
     auto row = Json::array({design.series[design.cells[c].series].code, design.cells[c].composition, teams[c].size()});
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.items; }));
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.minutes; }));
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.person_minutes; }));
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.knowledge; }));
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.exam_share_right; }));
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.exam_regret; }));
+    for (const Quantity quantity :
+         {Quantity{items_of}, Quantity{[](auto& team) { return team.cost.minutes; }},
+          Quantity{[](auto& team) { return team.cost.person_minutes; }}, outcome_named(columns::kKnowledge).of,
+          outcome_named(columns::kExamShareRight).of, outcome_named(columns::kExamRegret).of})
+      add_interval(row, values_of(teams[c], data, quantity));
     row.push_back(is_on_front(rivals, own));
     row.push_back(number(shares[c]));
     table.add(std::move(row));
@@ -180,12 +183,13 @@ Json forecasts_table(const ReportDesign& design, const RunData& data) {
     const auto& forecast = *data.teams[teams[c].front()].forecast;  // the same for the whole cell
     std::size_t within = 0;
     for (const auto team : teams[c]) {
-      const double periods = data.teams[team].periods;
-      within += periods >= forecast.low && periods <= forecast.high ? 1u : 0u;
+      const double periods = kPeriodsOf(data.teams[team]);
+      within += periods >= forecast.periods_low && periods <= forecast.periods_high ? 1u : 0u;
     }
     auto row = Json::array({design.series[design.cells[c].series].code, design.cells[c].composition, teams[c].size()});
-    for (const double value : {forecast.mean, forecast.low, forecast.high}) row.push_back(number(value));
-    add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.periods; }));
+    for (const double value : {forecast.periods, forecast.periods_low, forecast.periods_high})
+      row.push_back(number(value));
+    add_interval(row, values_of(teams[c], data, kPeriodsOf));
     const auto share = wilson_interval(within, teams[c].size());
     for (const double value : {share.estimate, share.low, share.high}) row.push_back(number(value));
     table.add(std::move(row));

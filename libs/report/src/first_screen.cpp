@@ -22,7 +22,7 @@ std::string change_text(double together, double alone) {
 }
 
 std::string headline_about_alone(const FirstScreen& screen) {
-  const auto mean_of = [&](const Outcome& outcome, bool alone) { return mean(values_of(screen, outcome, alone)); };
+  const auto mean_of = [&](const StudyOutcome& outcome, bool alone) { return mean(values_of(screen, outcome, alone)); };
   const auto periods = answer_about_alone(screen, kPeriods), people = answer_about_alone(screen, kPersonPeriods);
   const double together = mean_of(kPeriods, false), alone = mean_of(kPeriods, true);
   std::string people_text;
@@ -57,7 +57,7 @@ std::string headline_about(const FirstScreen& screen, const std::string& factor,
   const auto knowledge = answer_about(screen, known(screen), factor, "");
   if (!periods && !knowledge) return "";
   const bool on_periods = periods && is_shown(*periods), on_knowledge = knowledge && is_shown(*knowledge);
-  const auto name = known(screen).name;
+  const std::string name{known(screen).phrase};
   if (on_periods && on_knowledge) return levels + " differ in periods and in " + name;
   if (on_periods) return levels + " differ in periods, but not detectably in " + name;
   if (on_knowledge && is_fixed) {
@@ -76,7 +76,7 @@ std::string dose_text(const FirstScreen& screen) {
   constexpr double kAlike = 1.1;
   std::map<std::string, Values> items;
   for (std::size_t i = 0; i < screen.data.teams.size(); ++i)
-    if (!is_alone(screen, i)) items[series_of(screen, i).label].push_back(screen.data.teams[i].items);
+    if (!is_alone(screen, i)) items[series_of(screen, i).label].push_back(items_of(screen.data.teams[i]));
   const auto by_mean = [](const auto& a, const auto& b) { return mean(a.second) < mean(b.second); };
   const auto [least, most] = std::minmax_element(items.begin(), items.end(), by_mean);
   if (items.size() < 2 || mean(least->second) <= 0.0 || mean(most->second) < kAlike * mean(least->second)) return "";
@@ -89,7 +89,7 @@ std::string dose_text(const FirstScreen& screen) {
 
 std::size_t num_completed(const FirstScreen& screen) {
   return static_cast<std::size_t>(std::count_if(screen.data.teams.begin(), screen.data.teams.end(),
-                                                [](const auto& team) { return team.completed; }));
+                                                [](const auto& team) { return team.completed(); }));
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "beliefs.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/board_json.hpp"
+#include "kith/study/read_records.hpp"
 #include "kith/table/column_names.hpp"
 
 namespace kith::detail {
@@ -38,20 +38,19 @@ std::vector<std::size_t> telling_first(const ReportDesign& design, const RunData
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     if (std::find(order.begin(), order.end(), i) == order.end()) rest.push_back(i);
   }
-  std::stable_sort(rest.begin(), rest.end(),
-                   [&](std::size_t a, std::size_t b) { return data.teams[a].replicate < data.teams[b].replicate; });
+  std::stable_sort(rest.begin(), rest.end(), [&](std::size_t a, std::size_t b) {
+    return data.teams[a].address.replicate < data.teams[b].address.replicate;
+  });
   order.insert(order.end(), rest.begin(), rest.end());
   if (order.size() > kMostTeams) order.resize(kMostTeams);
   return order;
 }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream stream{text};
-  for (std::string part; std::getline(stream, part, separator);) {
-    if (!part.empty()) parts.push_back(part);
-  }
-  return parts;
+// "-1 0 2"
+std::string conveyed_text(const HalfSpace& half_space) {
+  std::string text;
+  for (const auto entry : half_space.normal()) text += (text.empty() ? "" : " ") + std::to_string(entry);
+  return text;
 }
 
 class LessonReader {
@@ -62,58 +61,59 @@ class LessonReader {
   }
 
   std::map<std::size_t, TeamLessons> read() && {
-    read_table(
+    read_table<DemonstrationRecord>(
         "demonstrations.csv",
         {columns::kPeriod, columns::kComponent, columns::kMdp, columns::kStart, columns::kConstraint, columns::kMember},
-        [&](const StudyRow& row, TeamLessons& team) {
-          auto& lesson = lesson_of(row, team, row.has(columns::kMember) ? row.count(columns::kMember, 1, kMax) : 0);
-          lesson.shown.push_back(start_of(row));
-          for (auto& one : split(row.text(columns::kConstraint), ';')) lesson.conveyed.push_back(std::move(one));
+        [&](const RecordRow& row, const DemonstrationRecord& demonstration, TeamLessons& team) {
+          auto& lesson = lesson_of(row, demonstration, team, demonstration.member);
+          lesson.shown.push_back(start_of(row, demonstration));
+          for (const auto& one : demonstration.constraints) lesson.conveyed.push_back(conveyed_text(one));
         });
-    read_table("responses.csv",
-               {columns::kPeriod, columns::kComponent, columns::kMdp, columns::kStart, columns::kTest, columns::kMember,
-                columns::kCorrect},
-               [&](const StudyRow& row, TeamLessons& team) {
-                 const auto member = row.count(columns::kMember, 1, kMax);
-                 auto& test = lesson_of(row, team, session_of(row, member)).tests[row.count(columns::kTest, 1, kMax)];
-                 test.demo = start_of(row);
-                 test.right[member] = row.boolean(columns::kCorrect);
-               });
-    read_table("progress.csv", {columns::kPeriod, columns::kComponent, columns::kMember, columns::kBelief},
-               [&](const StudyRow& row, TeamLessons& team) {
-                 const auto member = row.count(columns::kMember, 1, kMax);
-                 lesson_of(row, team, session_of(row, member)).knowledge[member] = row.real(columns::kBelief);
-               });
+    read_table<ResponseRecord>(
+        "responses.csv",
+        {columns::kPeriod, columns::kComponent, columns::kMdp, columns::kStart, columns::kTest, columns::kMember,
+         columns::kCorrect},
+        [&](const RecordRow& row, const ResponseRecord& response, TeamLessons& team) {
+          auto& test = lesson_of(row, response, team, session_of(row, response.member)).tests[response.test];
+          test.demo = start_of(row, response);
+          test.right[response.member] = response.correct;
+        });
+    read_table<ProgressRecord>(
+        "progress.csv", {columns::kPeriod, columns::kComponent, columns::kMember, columns::kBelief},
+        [&](const RecordRow& row, const ProgressRecord& progress, TeamLessons& team) {
+          lesson_of(row, progress, team, session_of(row, progress.member)).knowledge[progress.member] = progress.p_bec;
+        });
     return std::move(lessons_);
   }
 
  private:
-  static constexpr std::size_t kMax = std::numeric_limits<std::int64_t>::max();
-
-  void read_table(const std::string& table, const std::vector<std::string_view>& wanted,
-                  const std::function<void(const StudyRow&, TeamLessons&)>& on_row) {
-    const auto file = (run_.folder / "tables" / table).string();
-    read_study_table(table_text(run_, table), file, run_.study, run_.teams, table, wanted, [&](const StudyRow& row) {
-      const auto team = lessons_.find(row.team());
-      if (team != lessons_.end()) on_row(row, team->second);
-    });
+  template <typename Record, typename OnRecord>
+  void read_table(const std::string& table, const std::vector<std::string_view>& wanted, OnRecord on_record) {
+    const auto text = table_text(run_, table);
+    read_records<Record>({text, (run_.folder / "tables" / table).string(), &run_.study, run_.teams}, wanted,
+                         [&](const RecordRow& row, const Record& record) {
+                           const auto team = lessons_.find(row.team);
+                           if (team != lessons_.end()) on_record(row, record, team->second);
+                         });
   }
 
   // In the baseline every member has a session.
-  static std::size_t session_of(const StudyRow& row, std::size_t member) {
-    return row.address().strategy == kBaseline ? member : 0;
+  static std::size_t session_of(const RecordRow& row, std::size_t member) {
+    return row.address.strategy == kBaseline ? member : 0;
   }
 
-  static LessonOfPeriod& lesson_of(const StudyRow& row, TeamLessons& team, std::size_t session) {
-    auto& lesson = team[{session, row.count(columns::kPeriod, 0, kMax)}];
-    lesson.component = row.count(columns::kComponent, 1, kMax);
+  template <typename Record>
+  static LessonOfPeriod& lesson_of(const RecordRow& row, const Record& record, TeamLessons& team, std::size_t session) {
+    auto& lesson = team[{session, record.period}];
+    lesson.component = row.within(record.component, 1, std::numeric_limits<std::size_t>::max());
     return lesson;
   }
 
-  [[nodiscard]] StartIndex start_of(const StudyRow& row) const {
+  template <typename Record>
+  [[nodiscard]] StartIndex start_of(const RecordRow& row, const Record& record) const {
     const auto& domain = run_.domain;
-    const MdpIndex mdp{row.count(columns::kMdp, 0, domain.num_mdps() - 1)};
-    return atlas_.index({mdp, StateIndex{row.count(columns::kStart, 0, domain.mdp(mdp).num_states() - 1)}});
+    const MdpIndex mdp{row.within(record.mdp, 0, domain.num_mdps() - 1)};
+    return atlas_.index({mdp, StateIndex{row.within(record.start, 0, domain.mdp(mdp).num_states() - 1)}});
   }
 
   const RunFiles& run_;
@@ -226,7 +226,7 @@ std::optional<Json> team_lessons(const RunFiles& run, const ReportDesign& design
   LessonWriter writer{atlas};
   for (const auto team : order) {
     const auto& series = design.series[design.cells[design.cell_of_team[team]].series];
-    if (!writer.add(run.teams.addresses[team], series.code, lessons.at(team))) break;
+    if (!writer.add(run.teams[team], series.code, lessons.at(team))) break;
   }
   if (writer.num_teams() == 0) return std::nullopt;
   if (writer.num_teams() < data.teams.size()) {

@@ -1,12 +1,14 @@
 #include "matrices.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
 #include "kith/stats/moments.hpp"
 #include "kith/stats/tests.hpp"
 #include "kith/table/column_names.hpp"
+#include "sentences.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {
@@ -23,17 +25,9 @@ struct Varied {
   bool is_varied_key = false;
 };
 
-struct Shown {
-  std::string column;
-  std::string name;
-  Quantity value;
-  int digits;
-  bool less_is_better;
-};
-
 template <typename LevelOf>
 Varied factor_of(const RunFiles& run, Varied factor, LevelOf level_of) {
-  for (const auto& address : run.teams.addresses) {
+  for (const auto& address : run.teams) {
     const std::string level = level_of(address);
     const auto found = std::find(factor.levels.begin(), factor.levels.end(), level);
     factor.level_of_team.push_back(static_cast<std::size_t>(found - factor.levels.begin()));
@@ -56,19 +50,15 @@ std::vector<Varied> factors_of(const RunFiles& run) {
   return factors;
 }
 
-std::vector<Shown> outcomes_of(const RunData& data) {
-  std::vector<Shown> all;
-  if (data.has_exam) {
-    all = {{columns::kExamRegret, "Regret in the exam", &TeamValues::exam_regret, 3, true},
-           {columns::kExamShareRight, "Share right in the exam", &TeamValues::exam_share_right, 2, false}};
-  } else {
-    all = {{columns::kKnowledge, "Knowledge at the end", &TeamValues::knowledge, 2, false},
-           {columns::kPeriods, "Periods", &TeamValues::periods, 1, true}};
-  }
+std::vector<StudyOutcome> outcomes_of(const RunData& data) {
+  std::vector<StudyOutcome> all;
+  for (const auto* column : data.has_exam ? std::array{columns::kExamRegret, columns::kExamShareRight}
+                                          : std::array{columns::kKnowledge, columns::kPeriods})
+    all.push_back(outcome_named(column));
   // A fixed number of periods, for instance, tells nothing.
-  std::erase_if(all, [&](const Shown& outcome) {
+  std::erase_if(all, [&](const StudyOutcome& outcome) {
     return std::all_of(data.teams.begin(), data.teams.end(),
-                       [&](auto& team) { return team.*outcome.value == data.teams.front().*outcome.value; });
+                       [&](auto& team) { return outcome.of(team) == outcome.of(data.teams.front()); });
   });
   return all;
 }
@@ -82,16 +72,17 @@ class Matrix {
   Matrix(const RunFiles& run, const RunData& data, const Varied& rows, const Varied& columns)
       : data_{data}, rows_{rows}, columns_{columns}, cells_(rows.levels.size() * columns.levels.size()) {
     for (std::size_t i = 0; i < data.teams.size(); ++i) {
-      const auto& address = run.teams.addresses[i];
+      const auto& address = run.teams[i];
       cells_[rows.level_of_team[i] * columns.levels.size() + columns.level_of_team[i]].emplace(
           People{address.variant, address.composition, address.replicate}, i);
     }
   }
 
-  [[nodiscard]] Json table(const std::vector<Shown>& outcomes) const {
+  [[nodiscard]] Json table(const std::vector<StudyOutcome>& outcomes) const {
     std::vector<std::string> heads{rows_.name, columns_.name, "teams"};
     for (const auto& outcome : outcomes) {
-      for (const auto* statistic : {"_mean", "_low", "_high", "_standing"}) heads.push_back(outcome.column + statistic);
+      for (const auto* statistic : {"_mean", "_low", "_high", "_standing"})
+        heads.push_back(std::string{outcome.column} + statistic);
     }
     JsonTable table{heads};
     for (std::size_t row = 0; row < rows_.levels.size(); ++row) {
@@ -115,13 +106,13 @@ class Matrix {
   [[nodiscard]] const Teams& at(std::size_t row, std::size_t column) const {
     return cells_[row * columns_.levels.size() + column];
   }
-  [[nodiscard]] Values values_of(const Teams& teams, const Shown& outcome) const {
+  [[nodiscard]] Values values_of(const Teams& teams, const StudyOutcome& outcome) const {
     Values values;
-    for (const auto& [people, team] : teams) values.push_back(data_.teams[team].*outcome.value);
+    for (const auto& [people, team] : teams) values.push_back(outcome.of(data_.teams[team]));
     return values;
   }
 
-  [[nodiscard]] std::vector<std::string> standings_in(std::size_t row, const Shown& outcome) const {
+  [[nodiscard]] std::vector<std::string> standings_in(std::size_t row, const StudyOutcome& outcome) const {
     constexpr double kSlack = 1e-9;  // of sums in another order
     std::vector<std::string> standings(columns_.levels.size());
     std::vector<std::size_t> present;
@@ -145,19 +136,19 @@ class Matrix {
   }
 
   // Whether the interval of the difference includes that there is none.
-  [[nodiscard]] bool includes_none(const Teams& teams, const Teams& best, const Shown& outcome) const {
+  [[nodiscard]] bool includes_none(const Teams& teams, const Teams& best, const StudyOutcome& outcome) const {
     const auto difference = columns_.has_own_people ? welch_t_test(values_of(teams, outcome), values_of(best, outcome))
                                                     : difference_of_pairs(teams, best, outcome);
     return difference && difference->low <= 0.0 && difference->high >= 0.0;
   }
   [[nodiscard]] Estimable<MeanDifference> difference_of_pairs(const Teams& teams, const Teams& best,
-                                                              const Shown& outcome) const {
+                                                              const StudyOutcome& outcome) const {
     Values values, others;
     for (const auto& [people, team] : teams) {
       const auto other = best.find(people);
       if (other == best.end()) continue;
-      values.push_back(data_.teams[team].*outcome.value);
-      others.push_back(data_.teams[other->second].*outcome.value);
+      values.push_back(outcome.of(data_.teams[team]));
+      others.push_back(outcome.of(data_.teams[other->second]));
     }
     return paired_t_test(values, others);
   }
@@ -177,7 +168,7 @@ Json matrices(const RunFiles& run, const RunData& data) {
   Json described = Json::array();
   for (const auto& outcome : outcomes) {
     described.push_back({{"column", outcome.column},
-                         {"name", outcome.name},
+                         {"name", capitalised(std::string{outcome.phrase})},
                          {"digits", outcome.digits},
                          {"less_is_better", outcome.less_is_better}});
   }

@@ -293,10 +293,11 @@ class Paragraph {
           " had no part in the remaining periods of a component.");
     }
 
-    const auto missed = static_cast<std::size_t>(std::count_if(
-        data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed && !team.skipped; }));
-    const auto skipped = static_cast<std::size_t>(
-        std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return team.skipped; }));
+    const auto ended = [&](SessionStatus status) {
+      return std::ranges::count(data_.teams, status, &TeamRecord::status);
+    };
+    const auto missed = static_cast<std::size_t>(ended(SessionStatus::kMaxPeriods));
+    const auto skipped = static_cast<std::size_t>(ended(SessionStatus::kSkipped));
 
     if (skipped > 0) {
       say(counted(skipped, "team") +

@@ -17,10 +17,10 @@ const std::string& composition_of(const FirstScreen& screen, std::size_t team) {
 }
 bool is_alone(const FirstScreen& screen, std::size_t team) { return series_of(screen, team).strategy == kBaseline; }
 
-Values values_of(const FirstScreen& screen, const Outcome& outcome, bool alone) {
+Values values_of(const FirstScreen& screen, const StudyOutcome& outcome, bool alone) {
   Values values;
   for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
-    const double value = screen.data.teams[i].*outcome.value;
+    const double value = outcome.of(screen.data.teams[i]);
     if (is_alone(screen, i) == alone && std::isfinite(value)) values.push_back(value);
   }
   return values;
@@ -40,24 +40,22 @@ bool compares_with_alone(const FirstScreen& screen) {
   return alone > 0 && static_cast<std::size_t>(alone) < series.size();
 }
 
-Outcome known(const FirstScreen& screen) {
-  if (screen.data.leads_with_exam) {
-    return {columns::kExamShareRight, "share right in the exam", &TeamValues::exam_share_right, 2};
-  }
-  return {"knowledge", screen.simulated ? "knowledge at the end" : "estimated knowledge at the end",
-          &TeamValues::knowledge, 2};
+StudyOutcome known(const FirstScreen& screen) {
+  auto outcome = outcome_named(screen.data.leads_with_exam ? columns::kExamShareRight : columns::kKnowledge);
+  if (!screen.simulated) outcome.phrase = "estimated knowledge at the end";
+  return outcome;
 }
 
 // A period of a team takes the time of everybody in it, so that the comparison with teaching alone needs both counts.
-std::vector<Outcome> outcomes_of(const FirstScreen& screen) {
-  std::vector<Outcome> outcomes;
+std::vector<StudyOutcome> outcomes_of(const FirstScreen& screen) {
+  std::vector<StudyOutcome> outcomes;
   if (!has_fixed_periods(screen)) {
     outcomes.push_back(kPeriods);
     if (compares_with_alone(screen)) outcomes.push_back(kPersonPeriods);
   }
   outcomes.push_back(known(screen));
   if (screen.data.has_exam && !screen.data.leads_with_exam) {
-    outcomes.push_back({columns::kExamShareRight, "share right in the exam", &TeamValues::exam_share_right, 2});
+    outcomes.push_back(outcome_named(columns::kExamShareRight));
   }
   return outcomes;
 }

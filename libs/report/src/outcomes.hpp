@@ -9,20 +9,17 @@
 
 namespace kith::detail {
 
-// What teams are compared by.
-struct Outcome {
-  std::string id;    // as in the names of findings
-  std::string name;  // in a sentence
-  Quantity value;
-  int digits;
-};
-
-inline const Outcome kPeriods{columns::kPeriods, "periods", &TeamValues::periods, 1};
-inline const Outcome kPersonPeriods{"person-periods", "person-periods", &TeamValues::person_periods, 1};
+// What teams are compared by on the first screen.
+inline const StudyOutcome kPeriods = outcome_named(columns::kPeriods);
+inline const StudyOutcome kPersonPeriods{
+    .column = "person-periods",
+    .phrase = "person-periods",
+    .of = [](const TeamRecord& team) { return static_cast<double>(team.cost.person_periods); },
+    .digits = kPeriods.digits};
 
 // What says how much a team knows.
-[[nodiscard]] Outcome known(const FirstScreen& screen);
-[[nodiscard]] std::vector<Outcome> outcomes_of(const FirstScreen& screen);
+[[nodiscard]] StudyOutcome known(const FirstScreen& screen);
+[[nodiscard]] std::vector<StudyOutcome> outcomes_of(const FirstScreen& screen);
 
 [[nodiscard]] const ReportDesign::Series& series_of(const FirstScreen& screen, std::size_t team);
 [[nodiscard]] const std::string& composition_of(const FirstScreen& screen, std::size_t team);
@@ -36,6 +33,6 @@ inline const Outcome kPersonPeriods{"person-periods", "person-periods", &TeamVal
 [[nodiscard]] bool has_fixed_periods(const FirstScreen& screen);
 
 // The finite values of the teams that were taught together, or alone.
-[[nodiscard]] Values values_of(const FirstScreen& screen, const Outcome& outcome, bool alone);
+[[nodiscard]] Values values_of(const FirstScreen& screen, const StudyOutcome& outcome, bool alone);
 
 }  // namespace kith::detail

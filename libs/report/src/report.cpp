@@ -18,6 +18,7 @@
 #include "outcomes.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
+#include "sentences.hpp"
 #include "session_report.hpp"
 #include "session_tables.hpp"
 #include "team_tables.hpp"
@@ -38,10 +39,13 @@ constexpr std::array kInterval{Statistic{"_low", ", 95 % low"}, Statistic{"_high
 constexpr std::array kForecast{Statistic{"_mean", ", mean"}, Statistic{"_low", ", 80 % low"},
                                Statistic{"_high", ", 80 % high"}};
 
+// Stands for the outcomes that are analysed.
+constexpr std::string_view kOutcomeRows = "outcomes";
+
 // The heading of a column and of its statistics.
 struct Heading {
   std::string_view column;
-  std::string_view text;  // empty: there are only statistics
+  std::string_view text{};  // empty: there are only statistics
   std::span<const Statistic> statistics{};
   std::string_view stem{};  // of the headings of the statistics; empty: the text
 };
@@ -58,11 +62,7 @@ constexpr std::array kHeadings{
     Heading{"answers", "Answers"},
     Heading{"period", "Period"},
     Heading{"period_of_kc", "Period of the component"},
-    Heading{"periods", "Periods", kMoments},
-    Heading{"knowledge", "Knowledge", kMoments},
-    Heading{"exam_share_right", "Share right in the exam", kMoments, "Share right"},
-    Heading{"exam_regret", "Regret in the exam", kMoments, "Regret"},
-    Heading{"exam_worst_share_right", "Worst member's share right", kMoments},
+    Heading{kOutcomeRows},
     Heading{"share_right", "Share right", kInterval},
     Heading{"worst_share_right", "Worst member's share right", kInterval},
     Heading{"regret", "Regret", kInterval},
@@ -99,15 +99,24 @@ constexpr std::array kHeadings{
 
 Json headings() {
   Json columns = Json::object();
-  for (const auto& heading : kHeadings) {
-    if (!heading.text.empty()) columns[std::string{heading.column}] = heading.text;
-    const std::string stem{heading.stem.empty() ? heading.text : heading.stem};
-    for (const auto& statistic : heading.statistics) {
-      columns[std::string{heading.column}.append(statistic.suffix)] = stem + std::string{statistic.text};
+  const auto add = [&](std::string_view column, const std::string& text, std::string_view stem, auto statistics) {
+    if (!text.empty()) columns[std::string{column}] = text;
+    for (const auto& statistic : statistics)
+      columns[std::string{column}.append(statistic.suffix)] = std::string{stem}.append(statistic.text);
+  };
+  for (const auto& [column, text, statistics, stem] : kHeadings) {
+    if (column != kOutcomeRows) {
+      add(column, std::string{text}, stem.empty() ? text : stem, statistics);
+      continue;
     }
+    for (const auto* outcome : analysed_outcomes(true, false))
+      add(outcome->column, capitalised(std::string{outcome->name}), outcome->stem,
+          std::span<const Statistic>{kMoments});
   }
   return columns;
 }
+
+bool is_skipped(const TeamRecord& team) { return team.status == SessionStatus::kSkipped; }
 
 Json labels_of(const RunFiles& run, const ReportDesign& design) {
   Json strategies = Json::object(), types = Json::object();
@@ -152,9 +161,8 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
   for (const auto& factor : run.spec().factors) factors.push_back(factor.key);
 
   const auto completed =
-      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed; });
-  const auto skipped =
-      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.skipped; });
+      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed(); });
+  const auto skipped = std::count_if(data.teams.begin(), data.teams.end(), is_skipped);
 
   const FirstScreen screen{.design = design,
                            .data = data,
@@ -281,15 +289,15 @@ void note_data(const RunFiles& run, const ReportDesign& design, const RunData& d
                     ", and teams were added later. If those were analysed, the tests below are "
                     "not tests of one planned sample.");
   note_impoverished_beliefs(data, notes);
-  const auto skipped = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return t.skipped; });
+  const auto skipped = std::count_if(data.teams.begin(), data.teams.end(), is_skipped);
   if (skipped > 0) {
     notes.push_back(
         std::to_string(skipped) + " of " + std::to_string(data.teams.size()) +
         " teams did not learn all of a knowledge component, because nothing that could be shown conveys the "
         "rest. They do not count as completed: the completion curves treat them as censored.");
   }
-  const auto censored =
-      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed && !t.skipped; });
+  const auto censored = std::count_if(data.teams.begin(), data.teams.end(),
+                                      [](const auto& t) { return !t.completed() && !is_skipped(t); });
   if (censored > 0) {
     notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +
                     " teams reached the limit of " + std::to_string(run.spec().teaching.max_periods) +

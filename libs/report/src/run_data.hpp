@@ -9,32 +9,15 @@
 #include <vector>
 
 #include "design.hpp"
+#include "kith/study/outcomes.hpp"
 #include "run_files.hpp"
 
 namespace kith::detail {
 
-// The row of teams.csv.
-struct TeamValues {
-  bool completed = false;
-  bool skipped = false;  // ended with components left out; never in tables of earlier versions
-  std::size_t replicate = 1;
-  double periods = 0.0;
-  double person_periods = 0.0;  // summed over the members that were present
-  double knowledge = 0.0;
-  double area_sr = 0.0;
-  // What it took, and the exam at the end; 0 where the tables do not have it.
-  double items = 0.0;  // demonstrations and tests
-  double minutes = 0.0;
-  double person_minutes = 0.0;
-  double exam_share_right = 0.0;
-  double exam_regret = 0.0;
-  double exam_worst_share_right = 0.0;
-  struct Forecast {
-    double mean = 0.0, low = 0.0, high = 0.0;
-  };
-  std::optional<Forecast> forecast{};  // of the periods, before the first lesson
-  std::optional<double> fewest_particles{};
-};
+// Demonstrations and tests.
+[[nodiscard]] inline double items_of(const TeamRecord& team) {
+  return static_cast<double>(team.demonstrations + team.tests);
+}
 
 // A team when so many periods were taught: means over its members, and what teaching had taken by then.
 struct ExamPoint {
@@ -93,7 +76,8 @@ struct Answers {
 
 // What the report's figures are made from, gathered in one pass over each table.
 struct RunData {
-  std::vector<TeamValues> teams;            // by position in the tables
+  // By position in the tables. Person-periods are periods times members, but for the baseline.
+  std::vector<TeamRecord> teams;
   bool has_periods = false;                 // whether the level recorded what follows
   std::size_t num_components = 0;           //
   std::vector<ComponentValues> components;  // shape [teams, num_components], row-major

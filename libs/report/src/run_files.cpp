@@ -1,6 +1,7 @@
 #include "run_files.hpp"
 
 #include "kith/runs/run_folder.hpp"
+#include "kith/study/read_records.hpp"
 
 namespace kith::detail {
 
@@ -8,9 +9,9 @@ RunFiles open_run(const std::filesystem::path& folder, const StudyKinds& kinds) 
   auto published = PublishedRun::open(folder);
   auto reading = read_run_folder(folder, kinds);
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
-  auto teams = published.missing().empty() ? register_teams(*reading.study)
-                                           : register_teams(*reading.study, published.read("tables/teams.csv"),
-                                                            (folder / "tables" / "teams.csv").string());
+  auto teams = published.missing().empty() ? team_addresses(*reading.study)
+                                           : present_teams(*reading.study, published.read("tables/teams.csv"),
+                                                           (folder / "tables" / "teams.csv").string());
   auto study_toml = published.read("inputs/study.toml");
   auto domain_toml = published.read("inputs/domain.toml");
   auto manifest = Json::parse(published.manifest());

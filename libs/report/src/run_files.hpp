@@ -7,7 +7,7 @@
 #include "json_table.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
-#include "kith/study/read_tables.hpp"
+#include "kith/study/study.hpp"
 #include "kith/study/study_file.hpp"
 
 namespace kith::detail {
@@ -17,7 +17,7 @@ struct RunFiles {
   std::filesystem::path folder;
   Study study;
   Domain domain;
-  TeamRegister teams;  // that the tables hold
+  std::vector<TeamAddress> teams;  // that the tables hold
   std::string study_toml;
   std::string domain_toml;
   Json manifest;

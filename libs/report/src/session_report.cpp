@@ -57,12 +57,12 @@ ReportDesign design_of(const SessionTables& tables) {
 RunData data_of(const SessionTables& tables) {
   RunData data;
   for (const auto& group : tables.groups) {
-    data.teams.push_back({.completed = group.completed,
-                          .replicate = group.replicate,
-                          .periods = static_cast<double>(group.periods),
-                          .person_periods = static_cast<double>(group.periods * group.people),
-                          .knowledge = group.knowledge.value_or(std::numeric_limits<double>::quiet_NaN()),
-                          .area_sr = 0.0});
+    auto& team = data.teams.emplace_back();
+    team.address.replicate = group.replicate;
+    team.status = group.completed ? SessionStatus::kComplete : SessionStatus::kMaxPeriods;
+    team.periods = group.periods;
+    team.cost.person_periods = group.periods * group.people;
+    team.knowledge = group.knowledge.value_or(std::numeric_limits<double>::quiet_NaN());
   }
   return data;
 }

@@ -1,10 +1,12 @@
 #include "team_tables.hpp"
 
 #include <span>
+#include <utility>
 
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/stats/survival.hpp"
+#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 namespace {
@@ -24,7 +26,7 @@ Json cell_keys(const ReportDesign& design, std::size_t cell) {
 std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity) {
   std::vector<Values> result(design.cells.size());
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
-    result[design.cell_of_team[i]].push_back(data.teams[i].*quantity);
+    result[design.cell_of_team[i]].push_back(quantity(data.teams[i]));
   }
   return result;
 }
@@ -36,27 +38,23 @@ void add_interval(Json& row, std::span<const double> values) {
 
 Json cells_table(const ReportDesign& design, const RunData& data) {
   std::vector<std::string> columns{"strategy", "composition", "teams", "completed"};
-  std::vector<std::string> quantities_shown{"periods", "knowledge", "area"};
-  if (data.has_exam)
-    quantities_shown.insert(quantities_shown.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
-  for (const auto& quantity : quantities_shown) {
-    for (const auto* statistic : {"_mean", "_sd", "_low", "_high"}) columns.push_back(quantity + statistic);
+  std::vector<std::pair<std::string, Quantity>> shown;
+  for (const auto& outcome : outcomes()) {
+    if (outcome.column == columns::kCompleted || (outcome.needs_exam && !data.has_exam)) continue;
+    shown.emplace_back(outcome.column == columns::kAreaSr ? "area" : outcome.column, outcome.of);
+  }
+  for (const auto& [name, of] : shown) {
+    for (const auto* statistic : {"_mean", "_sd", "_low", "_high"}) columns.push_back(name + statistic);
   }
   JsonTable table{columns};
 
   std::vector<std::size_t> completed(design.cells.size());
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
-    if (data.teams[i].completed) ++completed[design.cell_of_team[i]];
+    if (data.teams[i].completed()) ++completed[design.cell_of_team[i]];
   }
 
-  std::vector<std::vector<Values>> quantities{by_cell(design, data, &TeamValues::periods),
-                                              by_cell(design, data, &TeamValues::knowledge),
-                                              by_cell(design, data, &TeamValues::area_sr)};
-  if (data.has_exam) {
-    for (const auto quantity :
-         {&TeamValues::exam_share_right, &TeamValues::exam_regret, &TeamValues::exam_worst_share_right})
-      quantities.push_back(by_cell(design, data, quantity));
-  }
+  std::vector<std::vector<Values>> quantities;
+  for (const auto& [name, of] : shown) quantities.push_back(by_cell(design, data, of));
 
   for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
     auto row = cell_keys(design, cell);
@@ -74,22 +72,23 @@ Json cells_table(const ReportDesign& design, const RunData& data) {
 
 Json teams_table(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points) {
   std::vector<std::string> columns{"strategy", "composition", "replicate", "team", "periods", "knowledge", "completed"};
-  if (data.has_exam) columns.insert(columns.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
+  std::vector<const StudyOutcome*> of_exam;
+  for (const auto& outcome : outcomes()) {
+    if (!outcome.needs_exam || !data.has_exam) continue;
+    of_exam.push_back(&outcome);
+    columns.emplace_back(outcome.column);
+  }
   JsonTable table{columns};
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
-    const auto& address = run.teams.addresses[i];
+    const auto& address = run.teams[i];
     if (address.replicate > points) continue;  // replicates are exchangeable: the first ones are as good as any
     auto row = cell_keys(design, design.cell_of_team[i]);
     row.push_back(address.replicate);
     row.push_back(address.team);
-    row.push_back(static_cast<std::size_t>(data.teams[i].periods));
+    row.push_back(data.teams[i].periods);
     row.push_back(number(data.teams[i].knowledge));
-    row.push_back(data.teams[i].completed);
-    if (data.has_exam) {
-      for (const auto quantity :
-           {&TeamValues::exam_share_right, &TeamValues::exam_regret, &TeamValues::exam_worst_share_right})
-        row.push_back(number(data.teams[i].*quantity));
-    }
+    row.push_back(data.teams[i].completed());
+    for (const auto* outcome : of_exam) row.push_back(number(outcome->of(data.teams[i])));
     table.add(std::move(row));
   }
   return std::move(table).take();
@@ -101,8 +100,8 @@ Json completion_table(const ReportDesign& design, const RunData& data) {
   std::vector<std::vector<bool>> observed(design.cells.size());
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     // A team to which nothing had to be taught is done at 0; survival times must be positive.
-    times[design.cell_of_team[i]].push_back(data.teams[i].periods + 1.0);
-    observed[design.cell_of_team[i]].push_back(data.teams[i].completed);
+    times[design.cell_of_team[i]].push_back(static_cast<double>(data.teams[i].periods) + 1.0);
+    observed[design.cell_of_team[i]].push_back(data.teams[i].completed());
   }
   for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
     const auto curve = kaplan_meier(times[cell], observed[cell]);
@@ -123,7 +122,7 @@ Json completion_table(const ReportDesign& design, const RunData& data) {
 
 Json area_cells_table(const ReportDesign& design, const RunData& data) {
   JsonTable table{{"strategy", "composition", "mean_area_sr", "low", "high", "n"}};
-  const auto values = by_cell(design, data, &TeamValues::area_sr);
+  const auto values = by_cell(design, data, outcome_named(columns::kAreaSr).of);
   for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
     auto row = cell_keys(design, cell);
     add_interval(row, values[cell]);

@@ -5,7 +5,7 @@
 namespace kith::detail {
 
 using Values = std::vector<double>;
-using Quantity = double TeamValues::*;
+using Quantity = double (*)(const TeamRecord&);
 
 // The values of every cell.
 [[nodiscard]] std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity);

@@ -32,8 +32,8 @@ class Choice {
   std::vector<TellingTeam> take() {
     add_extreme(known_,
                 [&](std::size_t team) { return "the lowest " + name_of_known() + " (" + rounded(known_(team)) + ")"; });
-    add_extreme([&](std::size_t team) { return -data_.teams[team].periods; },
-                [&](std::size_t team) { return "the slowest (" + counted_periods(data_.teams[team].periods) + ")"; });
+    add_extreme([&](std::size_t team) { return -periods_of(team); },
+                [&](std::size_t team) { return "the slowest (" + counted_periods(periods_of(team)) + ")"; });
     add_typical();
     std::reverse(chosen_.begin(), chosen_.end());
     return chosen_;
@@ -43,6 +43,8 @@ class Choice {
   [[nodiscard]] const std::string& strategy_of(std::size_t team) const {
     return design_.series[design_.cells[design_.cell_of_team[team]].series].strategy;
   }
+
+  [[nodiscard]] double periods_of(std::size_t team) const { return static_cast<double>(data_.teams[team].periods); }
 
   // The candidates of strategies without a chosen team; all others than those teams if there are none.
   [[nodiscard]] std::vector<std::size_t> others() const {
@@ -85,10 +87,10 @@ class Choice {
       std::sort(values.begin(), values.end());
       return values[(values.size() - 1) / 2];
     };
-    const double periods = median([&](std::size_t team) { return data_.teams[team].periods; });
+    const double periods = median([&](std::size_t team) { return periods_of(team); });
     const double known = median(known_);
     const auto distance = [&](std::size_t team) {
-      return std::pair{std::abs(data_.teams[team].periods - periods), std::abs(known_(team) - known)};
+      return std::pair{std::abs(periods_of(team) - periods), std::abs(known_(team) - known)};
     };
     const auto team = *std::min_element(among.begin(), among.end(),
                                         [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
@@ -103,7 +105,7 @@ class Choice {
   std::vector<std::size_t> candidates_;
   // What a team knows at the end: its share right where the exam leads.
   std::function<double(std::size_t)> known_ = [this](std::size_t team) {
-    return data_.leads_with_exam ? data_.teams[team].exam_share_right : data_.teams[team].knowledge;
+    return data_.leads_with_exam ? data_.teams[team].exam->share_right : data_.teams[team].knowledge;
   };
   bool together_ = true;
   std::vector<TellingTeam> chosen_;

@@ -91,20 +91,29 @@ TEST(Outline, RunsCounterClockwiseAlongTheBorder) {
 
 TEST(Outline, OfTheWholeSphereIsEmpty) { EXPECT_TRUE(outline(Cone{}).empty()); }
 
+TeamRecord team_of(std::size_t periods, double knowledge, std::size_t replicate = 1) {
+  TeamRecord team;
+  team.address.replicate = replicate;
+  team.status = SessionStatus::kComplete;
+  team.periods = periods;
+  team.knowledge = knowledge;
+  return team;
+}
+
 TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
   ReportDesign design;
   RunData data;
-  const auto add = [&](const std::string& strategy, double periods, double knowledge) {
+  const auto add = [&](const std::string& strategy, std::size_t periods, double knowledge) {
     design.series.push_back({strategy, "", strategy, 0, {}});
     design.cells.push_back({design.series.size() - 1, "NP", 1});
     design.cell_of_team.push_back(design.cells.size() - 1);
-    data.teams.push_back({.completed = true, .periods = periods, .knowledge = knowledge, .area_sr = 1.0});
+    data.teams.push_back(team_of(periods, knowledge));
   };
-  add("baseline", 30.0, 0.01);  // not taught together
-  add("common", 9.0, 0.1);      // the lowest knowledge, and the slowest
-  add("joint", 8.0, 0.5);       // the slowest of the others
-  add("individual-low", 7.0, 0.6);
-  add("individual-low", 2.0, 0.9);
+  add("baseline", 30, 0.01);  // not taught together
+  add("common", 9, 0.1);      // the lowest knowledge, and the slowest
+  add("joint", 8, 0.5);       // the slowest of the others
+  add("individual-low", 7, 0.6);
+  add("individual-low", 2, 0.9);
   const auto teams = telling_teams(design, data);
   ASSERT_EQ(teams.size(), 3u);
   EXPECT_EQ(teams[0].team, 3u);
@@ -118,12 +127,12 @@ TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
 TEST(TellingTeams, AreTheOnlyTeamIfThereIsOne) {
   ReportDesign design{{{"baseline", "Baseline", "baseline", 0, {}}}, {{0, "N", 1}}, {0}, 1};
   RunData data;
-  data.teams = {{.completed = true, .periods = 3.0, .knowledge = 0.5, .area_sr = 1.0}};
+  data.teams = {team_of(3, 0.5)};
   EXPECT_EQ(telling_teams(design, data).size(), 1u);
 }
 
 // What the report says of teams that needed so many periods together and alone, in the same order of people.
-std::string said_of(const std::vector<double>& together, const std::vector<double>& alone, bool paired) {
+std::string said_of(const std::vector<std::size_t>& together, const std::vector<std::size_t>& alone, bool paired) {
   ReportDesign design{{{"joint", "Joint", "joint", 0, {}}, {"baseline", "Baseline", "baseline", 0, {}}},
                       {{0, "NP", together.size()}, {1, "NP", alone.size()}},
                       {},
@@ -133,7 +142,7 @@ std::string said_of(const std::vector<double>& together, const std::vector<doubl
     const auto& values = cell == 0 ? together : alone;
     for (std::size_t i = 0; i < values.size(); ++i) {
       design.cell_of_team.push_back(cell);
-      data.teams.push_back({.replicate = i + 1, .periods = values[i]});
+      data.teams.push_back(team_of(values[i], 0.0, i + 1));
     }
   }
   const std::vector<Finding> findings;
@@ -143,16 +152,16 @@ std::string said_of(const std::vector<double>& together, const std::vector<doubl
 
 // Whether teams are too few follows from what their interval still allows, not from how many they are.
 TEST(Answers, AreOfTooFewTeamsIfALargeDifferenceMayBe) {
-  EXPECT_EQ(said_of({2.0, 6.0, 10.0, 14.0}, {2.1, 5.9, 10.1, 13.9}, true), "no difference found");
-  EXPECT_EQ(said_of({2.0, 6.0, 10.0, 14.0}, {6.1, 1.9, 14.1, 9.9}, true), "too few teams to tell");
-  EXPECT_EQ(said_of({2.0, 6.0}, {2.0, 6.0}, false), "too few teams to tell");
-  std::vector<double> many;
+  EXPECT_EQ(said_of({20, 60, 100, 140}, {21, 59, 101, 139}, true), "no difference found");
+  EXPECT_EQ(said_of({20, 60, 100, 140}, {61, 19, 141, 99}, true), "too few teams to tell");
+  EXPECT_EQ(said_of({2, 6}, {2, 6}, false), "too few teams to tell");
+  std::vector<std::size_t> many;
   for (const auto& [teams, said] : {std::pair{12, "too few teams to tell"}, {14, "no difference found"}}) {
-    while (many.size() < static_cast<std::size_t>(teams)) many.push_back(many.size() % 2 == 0 ? 4.0 : 6.0);
+    while (many.size() < static_cast<std::size_t>(teams)) many.push_back(many.size() % 2 == 0 ? 4 : 6);
     EXPECT_EQ(said_of(many, many, false), said) << teams;
   }
   // Nothing varies, so nothing is left to find.
-  EXPECT_EQ(said_of({3.0, 4.0, 4.0}, {3.0, 4.0, 4.0}, true), "not tested");
+  EXPECT_EQ(said_of({3, 4, 4}, {3, 4, 4}, true), "not tested");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "kith/study/outcomes.hpp"
 #include "kith/table/column_names.hpp"
 #include "read_study_spec.hpp"
 
@@ -69,6 +70,8 @@ bool check_weights(const StudyContrast& contrast, const TomlPlace& place, const 
 
 std::vector<StudyContrast> read_contrasts(const TomlArray& list, const StudySpec& spec, TomlReport& report) {
   std::vector<StudyContrast> contrasts;
+  std::vector<std::string> responses;
+  for (const auto* outcome : analysed_outcomes(true, false)) responses.emplace_back(outcome->column);
   for (const auto& element : list) {
     const auto* content = read_table(element, "an element of 'contrast'", report);
     if (content == nullptr) continue;
@@ -77,9 +80,9 @@ std::vector<StudyContrast> read_contrasts(const TomlArray& list, const StudySpec
     if (auto name = table.string("name", Presence::kRequired)) contrast.name = *std::move(name);
     if (const auto factor = table.word("factor", Presence::kOptional, kContrastFactorWords))
       contrast.factor = kContrastFactorWords[*factor];
-    if (const auto response = table.word("response", Presence::kOptional, kContrastResponseWords))
-      contrast.response = kContrastResponseWords[*response];
-    if (contrast.response.rfind("exam_", 0) == 0 && spec.exam == ExamLevel::kNone) {
+    if (const auto response = table.word("response", Presence::kOptional, responses))
+      contrast.response = responses[*response];
+    if (!contrast.response.empty() && outcome_named(contrast.response).needs_exam && spec.exam == ExamLevel::kNone) {
       report.error("E0420", element.place(),
                    "contrast '" + contrast.name + "' is about an exam, but nobody is examined",
                    "write exam = \"end\" under [record]");

@@ -37,7 +37,7 @@ class SpecReader {
     if (domain_ != nullptr) {
       take_domain(spec_, *domain_);
       // The mass in the policy's class is 0 for everybody there.
-      if (spec_.num_features > 3) spec_.exam = ExamLevel::kEnd;
+      if (exam_leads(true, spec_.num_features)) spec_.exam = ExamLevel::kEnd;
     }
     read_top();
     read_learner_types();

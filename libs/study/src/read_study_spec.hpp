@@ -9,9 +9,6 @@ namespace kith {
 
 /// The words that study files use.
 inline const std::vector<std::string> kContrastFactorWords{columns::kStrategy, columns::kComposition};
-inline const std::vector<std::string> kContrastResponseWords{columns::kPeriods, columns::kKnowledge,
-                                                             columns::kExamShareRight, columns::kExamRegret,
-                                                             columns::kExamWorstShareRight};
 inline constexpr const char* kStudySchema = "kith.study/1";
 
 /// Reads every key of a study document into a specification; what is wrong goes

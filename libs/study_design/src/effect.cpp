@@ -39,7 +39,7 @@ std::optional<double> number(const std::string& text) {
 
 std::string known_quantities() {
   std::string list;
-  for (const auto name : quantity_names()) list += (list.empty() ? "" : ", ") + std::string{name};
+  for (const auto& outcome : outcomes()) list += (list.empty() ? "" : ", ") + std::string{outcome.column};
   return list;
 }
 
@@ -91,7 +91,7 @@ std::optional<std::string> read_term(const std::vector<std::string>& words, cons
 }  // namespace
 
 std::string to_string(const Effect& effect) {
-  std::string text = std::string{name_of(effect.quantity)} + ": ";
+  std::string text = std::string{effect.outcome->column} + ": ";
   switch (effect.kind) {
     case Effect::Kind::kStrategy:
       text += columns::kStrategy;
@@ -119,12 +119,12 @@ EffectReading parse_effect(std::string_view text, const StudySpec& spec) {
   const auto colon = text.find(':');
   if (colon == std::string_view::npos) return refuse("'" + std::string{text} + "' names no quantity");
   const auto quantity_words = words_of(text.substr(0, colon));
-  const auto quantity = quantity_words.size() == 1 ? find_quantity(quantity_words.front()) : std::nullopt;
-  if (!quantity) {
+  const auto* const quantity = quantity_words.size() == 1 ? find_outcome(quantity_words.front()) : nullptr;
+  if (quantity == nullptr) {
     return refuse("there is no quantity '" + std::string{text.substr(0, colon)} + "'", "known: " + known_quantities());
   }
   Effect effect;
-  effect.quantity = *quantity;
+  effect.outcome = quantity;
   auto words = words_of(text.substr(colon + 1));
   const bool sized = words.size() >= 2 && words[words.size() - 2] == "=";
   if (sized) {
@@ -144,8 +144,7 @@ EffectReading parse_effect(std::string_view text, const StudySpec& spec) {
   return {effect, {}, {}};
 }
 
-std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& spec,
-                               const std::vector<std::string>& outcomes) {
+std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& spec) {
   std::string sides[2];
   double weights[2] = {0.0, 0.0};
   const bool of_compositions = contrast.factor == columns::kComposition;
@@ -157,9 +156,9 @@ std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& s
     sides[side] += (sides[side].empty() ? of_compositions ? "group/" : "" : "+") + level;
   }
   std::vector<Effect> effects;
-  for (const auto& outcome : outcomes) {
-    if (!contrast.response.empty() && contrast.response != outcome) continue;
-    const auto reading = parse_effect(outcome + ": " + sides[0] + " - " + sides[1], spec);
+  for (const auto* outcome : analysed_outcomes(spec.exam != ExamLevel::kNone, false)) {
+    if (!contrast.response.empty() && contrast.response != outcome->column) continue;
+    const auto reading = parse_effect(std::string{outcome->column} + ": " + sides[0] + " - " + sides[1], spec);
     if (reading.effect) effects.push_back(*reading.effect);
   }
   return effects;

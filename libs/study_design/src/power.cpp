@@ -177,7 +177,7 @@ bool is_two_way(const Effect& effect) {
 // p-values of all effects in one drawn study; effects as simulated share their analysis of variance.
 std::vector<double> p_values(const StudyTests& tests, std::span<const Effect> effects, std::span<const EffectData> data,
                              const Draw& draw) {
-  std::map<Quantity, std::array<double, 3>> shared;
+  std::map<const StudyOutcome*, std::array<double, 3>> shared;
   std::vector<double> result;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const auto& effect = effects[e];
@@ -185,8 +185,8 @@ std::vector<double> p_values(const StudyTests& tests, std::span<const Effect> ef
       result.push_back(tests.p_value(effect, data[e], draw));
       continue;
     }
-    auto found = shared.find(effect.quantity);
-    if (found == shared.end()) found = shared.emplace(effect.quantity, tests.two_way(data[e], draw)).first;
+    auto found = shared.find(effect.outcome);
+    if (found == shared.end()) found = shared.emplace(effect.outcome, tests.two_way(data[e], draw)).first;
     result.push_back(found->second[static_cast<std::size_t>(effect.kind)]);
   }
   return result;
@@ -265,8 +265,8 @@ std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpe
   if (options.studies < 1) throw std::invalid_argument{"replicate_findings: no study to run"};
   Study study;
   const auto seeds = RandomStream{options.seed}.split("replication");
-  std::vector<Quantity> quantities;
-  for (const auto& finding : findings) quantities.push_back(finding.effect.quantity);
+  std::vector<const StudyOutcome*> quantities;
+  for (const auto& finding : findings) quantities.push_back(finding.effect.outcome);
   for (std::size_t k = 0; k < options.studies; ++k) {
     auto variant = recording(spec, quantities);
     variant.seed = seeds.split(k).address();

@@ -11,10 +11,10 @@
 namespace kith {
 
 void require_pool_memory(const Study& study, std::size_t threads, std::size_t teams) {
-  constexpr std::uint64_t kOutcomes =
-      kNumQuantities * sizeof(double) + sizeof(std::uint32_t);  // and the number of the team
+  const std::uint64_t bytes_of_team =
+      outcomes().size() * sizeof(double) + sizeof(std::uint32_t);  // and the number of the team
   const auto how_many = threads == 0 ? default_num_workers() : threads;
-  require_memory(how_many * memory_per_thread(study) + teams * kOutcomes,
+  require_memory(how_many * memory_per_thread(study) + teams * bytes_of_team,
                  "keeping the outcomes of " + std::to_string(teams) + " teams and teaching on " +
                      std::to_string(how_many) + (how_many == 1 ? " thread" : " threads"),
                  "use fewer teams, particles or threads");

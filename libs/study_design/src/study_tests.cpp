@@ -12,7 +12,6 @@
 #include "kith/stats/power.hpp"
 #include "kith/stats/tests.hpp"
 #include "kith/table/column_names.hpp"
-#include "kith/table/outcome.hpp"
 
 namespace kith {
 namespace {
@@ -26,12 +25,12 @@ std::vector<std::size_t> group_positions(const TeamPool& pool) {
 }
 
 // Mean over cells of the squared deviations from the cells' means, n - 1 in each.
-double variance_within(const TeamPool& pool, Quantity quantity, const std::vector<std::size_t>& strategies,
+double variance_within(const TeamPool& pool, const StudyOutcome& outcome, const std::vector<std::size_t>& strategies,
                        const std::vector<std::size_t>& compositions) {
   double sum = 0.0, df = 0.0;
   for (const auto s : strategies) {
     for (const auto c : compositions) {
-      const auto cell = pool.cell(quantity, s, c);
+      const auto cell = pool.cell(outcome, s, c);
       const double center = mean(cell);
       for (const double value : cell) sum += (value - center) * (value - center);
       df += static_cast<double>(cell.size() - 1);
@@ -95,7 +94,7 @@ std::vector<std::vector<double>> cell_means(const TeamPool& pool, const Effect& 
   std::vector<std::vector<double>> means;
   for (const auto s : groups) {
     means.emplace_back();
-    for (const auto c : compositions) means.back().push_back(mean(pool.cell(effect.quantity, s, c)));
+    for (const auto c : compositions) means.back().push_back(mean(pool.cell(*effect.outcome, s, c)));
   }
   return means;
 }
@@ -118,7 +117,7 @@ std::size_t term_df(const Effect& effect, std::size_t groups, std::size_t compos
 EffectData::EffectData(const TeamPool& pool, const Effect& effect) : num_compositions_{pool.compositions().size()} {
   for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
     for (std::size_t c = 0; c < num_compositions_; ++c) {
-      cells_.push_back(pool.cell(effect.quantity, s, c));
+      cells_.push_back(pool.cell(*effect.outcome, s, c));
       mean_.push_back(mean(cells_.back()));
     }
   }
@@ -142,7 +141,7 @@ void EffectData::impose(const TeamPool& pool, const Effect& effect) {
   const auto groups = group_positions(pool);
   const auto compositions = compositions_of(pool, effect);
   auto effects = term_effects(cell_means(pool, effect, groups, compositions), effect.kind);
-  const double variance = variance_within(pool, effect.quantity, groups, compositions);
+  const double variance = variance_within(pool, *effect.outcome, groups, compositions);
   if (mean_square(effects) <= 1e-24 * (variance + 1e-300)) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       for (std::size_t j = 0; j < compositions.size(); ++j)
@@ -159,7 +158,7 @@ void EffectData::impose(const TeamPool& pool, const Effect& effect) {
 }
 
 EffectCells effect_cells(const TeamPool& pool, const Effect& effect) {
-  const auto range = outcome_columns()[static_cast<std::size_t>(effect.quantity)];
+  const auto& range = *effect.outcome;
   EffectCells result{.low = range.low, .high = range.high};
   const EffectData data{pool, effect};
   const auto term = cells_of(pool, effect);
@@ -174,7 +173,7 @@ EffectCells effect_cells(const TeamPool& pool, const Effect& effect) {
   for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
     for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
       if (!is_about(s, c)) continue;
-      const auto cell = pool.cell(effect.quantity, s, c);
+      const auto cell = pool.cell(*effect.outcome, s, c);
       const double sd = standard_deviation(cell).value_or(0.0);
       result.cells.push_back({pool.strategies()[s], pool.compositions()[c], mean(cell), sd, std::nullopt});
       center += result.cells.back().mean;
@@ -199,7 +198,7 @@ EffectCells effect_cells(const TeamPool& pool, const Effect& effect) {
   result.impossible = fmt::format(
       "{} would have means from {:.4g} to {:.4g} around the simulated {:.4g}, but it lies {}; without moving that "
       "center, differences between means of up to {:.3g} are possible",
-      name_of(effect.quantity), lowest, highest, center,
+      range.column, lowest, highest, center,
       std::isinf(range.high) ? fmt::format("at {:g} or above", range.low)
                              : fmt::format("between {:g} and {:g}", range.low, range.high),
       std::max(0.0, room) * difference);
@@ -407,7 +406,7 @@ double effect_size(const TeamPool& pool, const Effect& effect) {
     double sum[2] = {0.0, 0.0}, n[2] = {0.0, 0.0};
     for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
       for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
-        const double center = mean(pool.cell(effect.quantity, s, c));
+        const double center = mean(pool.cell(*effect.outcome, s, c));
         for (const int side : {0, 1}) {
           if (!is_selected(pool, side == 0 ? effect.first : effect.second, s, c)) continue;
           sum[side] += center;
@@ -419,7 +418,7 @@ double effect_size(const TeamPool& pool, const Effect& effect) {
   }
   const auto compositions = compositions_of(pool, effect);
   return eta_squared(cell_means(pool, effect, groups, compositions),
-                     variance_within(pool, effect.quantity, groups, compositions), pool.replicates(), effect);
+                     variance_within(pool, *effect.outcome, groups, compositions), pool.replicates(), effect);
 }
 
 TermCells cells_of(const TeamPool& pool, const Effect& effect) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "kith/study_design/power.hpp"
@@ -6,8 +7,9 @@ namespace kith {
 namespace {
 
 // Those of exams come last.
-std::size_t num_quantities(const StudySpec& spec) {
-  return spec.exam == ExamLevel::kNone ? static_cast<std::size_t>(Quantity::kExamShareRight) : kNumQuantities;
+std::size_t num_outcomes(const StudySpec& spec) {
+  const auto without_exam = std::ranges::count(outcomes(), false, &StudyOutcome::needs_exam);
+  return spec.exam == ExamLevel::kNone ? static_cast<std::size_t>(without_exam) : outcomes().size();
 }
 
 }  // namespace
@@ -18,12 +20,12 @@ TeamPool TeamPool::empty(const StudySpec& spec) {
   pool.compositions_ = spec.compositions;
   pool.replicates_ = spec.replicates;
   const auto teams = pool.strategies_.size() * pool.compositions_.size() * pool.replicates_;
-  pool.values_.assign(num_quantities(spec), std::vector<double>(teams));
+  pool.values_.assign(num_outcomes(spec), std::vector<double>(teams));
   return pool;
 }
 
 void TeamPool::set(std::size_t position, const TeamRecord& team) {
-  for (std::size_t q = 0; q < values_.size(); ++q) values_[q].at(position) = value_of(team, static_cast<Quantity>(q));
+  for (std::size_t q = 0; q < values_.size(); ++q) values_[q].at(position) = outcomes()[q].of(team);
 }
 
 TeamPool::TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
@@ -41,7 +43,7 @@ TeamPool::TeamPool(std::vector<std::string> strategies, std::vector<std::string>
       all.insert(all.end(), cell.begin(), cell.end());
     }
   }
-  values_.assign(kNumQuantities, all);
+  values_.assign(outcomes().size(), all);
 }
 
 TeamPool TeamPool::joined(std::span<const TeamPool> pools) {
@@ -60,7 +62,7 @@ TeamPool TeamPool::joined(std::span<const TeamPool> pools) {
     for (std::size_t s = 0; s < all.strategies_.size(); ++s) {
       for (std::size_t c = 0; c < all.compositions_.size(); ++c) {
         for (const auto& pool : pools) {
-          const auto cell = pool.cell(static_cast<Quantity>(q), s, c);
+          const auto cell = pool.cell(outcomes()[q], s, c);
           all.values_[q].insert(all.values_[q].end(), cell.begin(), cell.end());
         }
       }
@@ -69,10 +71,11 @@ TeamPool TeamPool::joined(std::span<const TeamPool> pools) {
   return all;
 }
 
-std::span<const double> TeamPool::cell(Quantity quantity, std::size_t strategy, std::size_t composition) const {
-  if (static_cast<std::size_t>(quantity) >= values_.size())
-    throw std::invalid_argument{"TeamPool: the teams were not examined"};
-  const auto& all = values_[static_cast<std::size_t>(quantity)];
+std::span<const double> TeamPool::cell(const StudyOutcome& outcome, std::size_t strategy,
+                                       std::size_t composition) const {
+  const auto place = static_cast<std::size_t>(&outcome - outcomes().data());
+  if (place >= values_.size()) throw std::invalid_argument{"TeamPool: the teams were not examined"};
+  const auto& all = values_[place];
   return std::span{all}.subspan((strategy * compositions_.size() + composition) * replicates_, replicates_);
 }
 

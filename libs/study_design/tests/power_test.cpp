@@ -40,7 +40,7 @@ PowerOptions sizes(std::vector<std::size_t> teams, std::size_t draws) {
 }
 
 Effect strategy_effect(std::optional<double> imposed = {}) {
-  return {.quantity = Quantity::kPeriods,
+  return {.outcome = &outcome_named("periods"),
           .kind = Effect::Kind::kStrategy,
           .composition = {},
           .first = {},
@@ -64,7 +64,7 @@ TeamPool shares_pool() {
 TEST(EffectCells, RefuseMeansThatTheOutcomeCannotHave) {
   const auto pool = shares_pool();
   Effect effect;
-  effect.quantity = Quantity::kExamShareRight;
+  effect.outcome = &outcome_named("exam_share_right");
   effect.kind = Effect::Kind::kContrast;
   effect.imposed = 0.5;
   effect.first.strategy = "joint";
@@ -74,7 +74,7 @@ TEST(EffectCells, RefuseMeansThatTheOutcomeCannotHave) {
       << refused.impossible;
   EXPECT_NE(refused.impossible.find("it lies between 0 and 1"), std::string::npos) << refused.impossible;
   // Where there is no upper bound, only the lower one refuses.
-  effect.quantity = Quantity::kExamRegret;
+  effect.outcome = &outcome_named("exam_regret");
   EXPECT_TRUE(effect_cells(pool, effect).impossible.empty());
   effect.imposed = -2.0;
   EXPECT_NE(effect_cells(pool, effect).impossible.find("it lies at 0 or above"), std::string::npos);
@@ -89,7 +89,7 @@ TEST(EffectCells, AreThoseOfTheEffectWithinTheRange) {
                           Effect::Kind::kStrategyWithin, Effect::Kind::kContrast}) {
     for (const double size : {0.01, 0.05, 0.09, 0.2, 0.5, 0.9, 0.99}) {
       Effect effect;
-      effect.quantity = Quantity::kKnowledge;
+      effect.outcome = &outcome_named("knowledge");
       effect.kind = kind;
       effect.composition = "NP";
       effect.imposed = size;
@@ -253,7 +253,7 @@ TEST(Power, WithinPeopleOfTwoStrategiesIsThePairedT) {
   const auto all = paired_pool(40, 8, 0.5);
   std::vector<std::vector<std::vector<double>>> values(2);
   for (std::size_t s = 0; s < 2; ++s) {
-    const auto cell = all.cell(Quantity::kPeriods, s + 1, 0);
+    const auto cell = all.cell(outcome_named("periods"), s + 1, 0);
     values[s] = {{cell.begin(), cell.end()}};
   }
   const TeamPool pool{{"common", "joint"}, {"NN"}, values};
@@ -277,9 +277,9 @@ TEST(SimulatePools, KeepsWhatTheTeamsCameTo) {
   for (std::size_t i = 0; i < addresses.size(); ++i) {
     const auto& pool = (*pools)[addresses[i].variant];
     const std::size_t s = addresses[i].strategy == kBaseline ? 0 : 1;
-    EXPECT_EQ(pool.cell(Quantity::kPeriods, s, 0)[addresses[i].replicate - 1],
+    EXPECT_EQ(pool.cell(outcome_named("periods"), s, 0)[addresses[i].replicate - 1],
               static_cast<double>(run.teams[i].periods));
-    EXPECT_EQ(pool.cell(Quantity::kKnowledge, s, 0)[addresses[i].replicate - 1], run.teams[i].knowledge);
+    EXPECT_EQ(pool.cell(outcome_named("knowledge"), s, 0)[addresses[i].replicate - 1], run.teams[i].knowledge);
   }
   const auto stopped =
       simulate_pools(testing::item_delivery(), study,

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kith/study_design/quantity.hpp"
+#include "kith/study_design/team_selection.hpp"
 
 namespace kith {
 
@@ -19,12 +19,12 @@ struct Effect {
     kStrategyWithin,  ///< One-way analysis of the group strategies within one composition, Bonferroni over all of them.
     kContrast,        ///< Mean of some teams minus that of others.
   };
-  Quantity quantity = Quantity::kPeriods;
+  const StudyOutcome* outcome = &outcomes().front();  ///< Not null.
   Kind kind = Kind::kStrategy;
   std::string composition;      ///< Of kStrategyWithin.
   TeamSelection first, second;  ///< Of kContrast: first - second.
   /// The size of the effect, if it is not the one that the study's own model has: partial eta squared in (0, 1), or for
-  /// kContrast the difference, in the quantity's unit, not 0.
+  /// kContrast the difference, in the outcome's unit, not 0.
   std::optional<double> imposed;
 };
 
@@ -41,9 +41,8 @@ struct EffectReading {
 /// COMPOSITION`, or `QUANTITY: TEAMS - TEAMS [= X]`, where TEAMS are as in parse_selection and blanks surround `-`.
 [[nodiscard]] EffectReading parse_effect(std::string_view text, const StudySpec& spec);
 
-/// What a planned contrast ([[contrast]]) compares, as effects on its outcome, or on all that `outcomes` names. None
-/// for weights that are not the mean of some levels minus that of others.
-[[nodiscard]] std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& spec,
-                                             const std::vector<std::string>& outcomes);
+/// What a planned contrast ([[contrast]]) compares, as effects on its outcome, or on all that the study analyses.
+/// None for weights that are not the mean of some levels minus that of others.
+[[nodiscard]] std::vector<Effect> effects_of(const StudyContrast& contrast, const StudySpec& spec);
 
 }  // namespace kith

@@ -13,7 +13,7 @@
 
 namespace kith {
 
-/// The outcomes of many teams in every cell of a design, one number per team and quantity: what studies are drawn from.
+/// The outcomes of many teams in every cell of a design, one number per team and outcome: what studies are drawn from.
 class TeamPool {
  public:
   /// A pool whose outcomes are all 0, spec.replicates in every cell; quantities of exams if the study has exams.
@@ -23,7 +23,7 @@ class TeamPool {
   /// All teams of pools of one design, cell by cell, in the order of the pools.
   /// @throws std::invalid_argument without pools or if their designs differ.
   [[nodiscard]] static TeamPool joined(std::span<const TeamPool> pools);
-  /// A pool of given outcomes of one quantity, the same for every quantity.
+  /// A pool of given values of one outcome, the same for every outcome.
   /// @param values  shape [strategies][compositions][replicates].
   TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
            std::vector<std::vector<std::vector<double>>> values);
@@ -32,8 +32,9 @@ class TeamPool {
   [[nodiscard]] const std::vector<std::string>& compositions() const noexcept { return compositions_; }
   [[nodiscard]] std::size_t replicates() const noexcept { return replicates_; }
   /// Outcomes of one cell, shape [replicates].
-  /// @throws std::invalid_argument for a quantity of exams if the teams were not examined.
-  [[nodiscard]] std::span<const double> cell(Quantity quantity, std::size_t strategy, std::size_t composition) const;
+  /// @throws std::invalid_argument for an outcome of exams if the teams were not examined.
+  [[nodiscard]] std::span<const double> cell(const StudyOutcome& outcome, std::size_t strategy,
+                                             std::size_t composition) const;
 
  private:
   TeamPool() = default;
@@ -75,11 +76,11 @@ struct EffectCell {
 };
 struct EffectCells {
   std::vector<EffectCell> cells{};
-  double low = 0.0, high = 0.0;  ///< What values the quantity can have, see OutcomeColumn.
+  double low = 0.0, high = 0.0;  ///< What values the outcome can have.
   double sd = 0.0;               ///< Within cells, pooled.
   /// The largest difference between means as imposed, or as simulated; in units of sd, infinite if that is 0.
   double largest_difference = 0.0;
-  /// Why no study can have the imposed effect, a sentence: a mean would lie where the quantity cannot.
+  /// Why no study can have the imposed effect, a sentence: a mean would lie where the outcome cannot.
   std::string impossible{};
 };
 /// What an effect does to the cells of a pool. Tests of an effect only see differences; the imposed means are those of

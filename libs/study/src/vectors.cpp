@@ -4,8 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "open_table.hpp"
-
 namespace kith::detail {
 namespace {
 
@@ -13,16 +11,16 @@ constexpr std::int64_t kLargest = 1'000'000'000;
 
 template <typename Number>
 std::optional<std::vector<Number>> parse_numbers(const std::string& text, std::size_t count) {
-  const auto words = words_of(text);
-  if (words.size() != count) return std::nullopt;
+  std::istringstream words{text};
   std::vector<Number> numbers;
-  for (const auto& word : words) {
+  for (std::string word; words >> word;) {
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
     if (!(value >= -kLargest && value <= kLargest)) return std::nullopt;
     numbers.push_back(value);
   }
+  if (numbers.size() != count) return std::nullopt;
   return numbers;
 }
 
@@ -45,7 +43,7 @@ std::optional<IntegerVector> parse_counts(const std::string& text, std::size_t d
 
 std::optional<std::vector<HalfSpace>> parse_half_spaces(const std::string& text, std::size_t dimension) {
   std::vector<HalfSpace> result;
-  if (words_of(text).empty()) return result;
+  if (text.find_first_not_of(" \t") == std::string::npos) return result;
   std::istringstream parts{text};
   for (std::string part; std::getline(parts, part, ';');) {
     const auto normal = parse_vector(part, dimension);

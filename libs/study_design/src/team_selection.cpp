@@ -1,63 +1,13 @@
-#include "kith/study_design/quantity.hpp"
+#include "kith/study_design/team_selection.hpp"
 
 #include <algorithm>
-#include <array>
-#include <stdexcept>
 #include <string>
 
-#include "kith/table/outcome.hpp"
-
 namespace kith {
-namespace {
 
-// In the order of the enumerators, which is that of outcome_columns().
-const std::array<std::string_view, kNumQuantities> kNames = [] {
-  std::array<std::string_view, kNumQuantities> names;
-  std::transform(outcome_columns().begin(), outcome_columns().end(), names.begin(),
-                 [](const OutcomeColumn& one) { return one.name; });
-  return names;
-}();
-
-const TeamExam& exam_of(const TeamRecord& team) {
-  if (!team.exam) throw std::invalid_argument{"value_of: the team was not examined"};
-  return *team.exam;
-}
-
-}  // namespace
-
-std::string_view name_of(Quantity quantity) noexcept { return kNames[static_cast<std::size_t>(quantity)]; }
-
-std::optional<Quantity> find_quantity(std::string_view name) noexcept {
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<Quantity>(found - kNames.begin());
-}
-
-std::span<const std::string_view> quantity_names() noexcept { return kNames; }
-
-double value_of(const TeamRecord& team, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kPeriods:
-      return static_cast<double>(team.periods);
-    case Quantity::kKnowledge:
-      return team.knowledge;
-    case Quantity::kCompleted:
-      return team.completed() ? 1.0 : 0.0;
-    case Quantity::kAreaSr:
-      return team.area_sr;
-    case Quantity::kExamShareRight:
-      return exam_of(team).share_right;
-    case Quantity::kExamRegret:
-      return exam_of(team).regret;
-    case Quantity::kExamWorstShareRight:
-      return exam_of(team).worst_share_right;
-  }
-  return 0.0;
-}
-
-StudySpec recording(StudySpec spec, std::span<const Quantity> quantities) {
+StudySpec recording(StudySpec spec, std::span<const StudyOutcome* const> outcomes) {
   spec.record = RecordLevel::kTeam;
-  spec.exam = std::any_of(quantities.begin(), quantities.end(), is_of_exam) ? ExamLevel::kEnd : ExamLevel::kNone;
+  spec.exam = std::ranges::any_of(outcomes, &StudyOutcome::needs_exam) ? ExamLevel::kEnd : ExamLevel::kNone;
   spec.exam_questions = 0;
   return spec;
 }
