@@ -37,8 +37,8 @@ const ComparisonFamily* comparisons_of(const Finding& finding, ComparisonFamily:
 
 std::optional<double> p_of(const ComparisonResult& one) { return one.corrected_p ? one.corrected_p : one.p; }
 
-// The standard deviation of teams of one cell, of all cells together.
-double spread_in_cells(const FirstScreen& screen, Quantity quantity) {
+// The standard deviation of teams of one cell, of all cells together; nothing if no cell has two teams.
+std::optional<double> spread_in_cells(const FirstScreen& screen, Quantity quantity) {
   double squares = 0.0, df = 0.0;
   for (auto& values : by_cell(screen.design, screen.data, quantity)) {
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -47,12 +47,17 @@ double spread_in_cells(const FirstScreen& screen, Quantity quantity) {
     squares += freedom * sd * sd;
     df += freedom;
   }
-  return df > 0.0 ? std::sqrt(squares / df) : 0.0;
+  return df > 0.0 ? std::optional{std::sqrt(squares / df)} : std::nullopt;
 }
 
-double half_width(double low, double high, double spread) { return high > low ? (high - low) / 2.0 / spread : 0.0; }
+// Where the teams of every cell are alike, more of them would tell nothing: then it is not their number.
+double half_width(double low, double high, std::optional<double> spread) {
+  constexpr double kRounding = 1e-12;
+  if (!(high > low) || (spread && *spread <= kRounding * (high - low))) return 0.0;
+  return spread ? (high - low) / 2.0 / *spread : std::numeric_limits<double>::infinity();
+}
 
-void set_difference(const ComparisonResult& one, double spread, Answer& answer) {
+void set_difference(const ComparisonResult& one, std::optional<double> spread, Answer& answer) {
   answer.estimate = one.estimate;
   answer.low = one.low;
   answer.high = one.high;
@@ -176,7 +181,7 @@ Answer answer_about_alone(const FirstScreen& screen, const StudyOutcome& outcome
   Answer answer{"Together compared with one after the other", std::string{outcome.phrase}, outcome.digits};
   answer.means = two_means(screen, outcome, " and ");
   answer.teams = std::min(values_of(screen, outcome, false).size(), values_of(screen, outcome, true).size());
-  const double spread = spread_in_cells(screen, outcome.of);
+  const auto spread = spread_in_cells(screen, outcome.of);
 
   if (const auto* finding = finding_of(screen, std::string{outcome.column} + "-baseline"); finding != nullptr) {
     answer.finding = finding->id;
@@ -217,7 +222,7 @@ std::optional<Answer> answer_about(const FirstScreen& screen, const StudyOutcome
   answer.teams = fewest_teams(screen, factor);
   answer.answer = extremes.answer;
 
-  const double spread = spread_in_cells(screen, outcome.of);
+  const auto spread = spread_in_cells(screen, outcome.of);
   double largest = -1.0, bound = 0.0, width = 0.0;
   if (const auto* pairs = comparisons_of(*finding, ComparisonFamily::Kind::kPairs, factor); pairs != nullptr) {
     for (const auto& pair : pairs->comparisons) {
@@ -250,7 +255,7 @@ std::vector<Answer> planned(const FirstScreen& screen) {
     Answer answer{finding->topic, comparison.name, comparison.response == kPeriods.column ? kPeriods.digits : 2,
                   finding->id};
     const auto* const outcome = find_outcome(comparison.response);
-    set_difference(comparison, outcome == nullptr ? 0.0 : spread_in_cells(screen, outcome->of), answer);
+    set_difference(comparison, outcome == nullptr ? std::nullopt : spread_in_cells(screen, outcome->of), answer);
     answer.p = p_of(comparison);
     answer.teams = fewest_teams(screen, "strategy");
     answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : not_found(answer);

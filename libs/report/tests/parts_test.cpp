@@ -164,5 +164,24 @@ TEST(Answers, AreOfTooFewTeamsIfALargeDifferenceMayBe) {
   EXPECT_EQ(said_of({3, 4, 4}, {3, 4, 4}, true), "not tested");
 }
 
+// Groups of people differ and the teams of one composition do not: more teams would tell nothing.
+TEST(Answers, AreNotOfTooFewTeamsWhereTeamsOfACellAreAlike) {
+  constexpr std::size_t kTeams = 6;
+  ReportDesign design{{{"joint", "Joint", "joint", 0, {}}, {"baseline", "Baseline", "baseline", 0, {}}},
+                      {{0, "NP", kTeams}, {0, "PP", kTeams}, {1, "NP", kTeams}, {1, "PP", kTeams}},
+                      {},
+                      2};
+  RunData data;
+  for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
+    for (std::size_t i = 0; i < kTeams; ++i) {
+      design.cell_of_team.push_back(cell);
+      data.teams.push_back(team_of(cell == 0 || cell == 3 ? 4 : 6, 0.0, i + 1));
+    }
+  }
+  const std::vector<Finding> findings;
+  const FirstScreen screen{.design = design, .data = data, .findings = findings, .paired = true};
+  EXPECT_EQ(answer_about_alone(screen, kPeriods).answer, "no difference found");
+}
+
 }  // namespace
 }  // namespace kith::detail
