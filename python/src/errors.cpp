@@ -43,8 +43,6 @@ const char* remedy_text(Remedy remedy) {
       return "put the shards together with the program: kith merge DIR... -o DIR";
     case Remedy::kAnalyseTable:
       return "analyse the table on its own: kith analyze FILE.csv --model FORMULA";
-    case Remedy::kLikelihoodMethod:
-      return "use method='likelihood'";
     case Remedy::kShowMap:
       return "look at the domain: it draws itself in a notebook, and str(domain) has its map";
     case Remedy::kShowStates:

@@ -42,8 +42,6 @@ std::string_view words_for(Remedy remedy) {
       return "merge what is available with --allow-partial";
     case Remedy::kAnalyseTable:
       return "analyse a table of your own with: kith analyze FILE --model ...";
-    case Remedy::kLikelihoodMethod:
-      return "use --method likelihood";
     case Remedy::kShowMap:
       return "see the map with everything on it: kith inspect DOMAIN";
     case Remedy::kShowStates:

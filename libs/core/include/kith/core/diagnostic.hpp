@@ -13,18 +13,17 @@ enum class Severity { kError, kWarning };
 /// the program: the command line names its options ("add --yes"), a server has buttons.
 enum class Remedy {
   kNone,
-  kReplaceContents,   ///< Use another folder, or allow that what this one holds is replaced.
-  kStartOver,         ///< Discard unfinished work and begin anew.
-  kAllowStart,        ///< Do not insist on work to resume.
-  kRunStudy,          ///< Make the results first: run the study.
-  kRunShard,          ///< Make the shard first.
-  kMergeShards,       ///< Put the shards of the study together.
-  kMergePart,         ///< Put together what there is.
-  kAnalyseTable,      ///< Analyse the table on its own, without its run.
-  kLikelihoodMethod,  ///< Fit by likelihood.
-  kShowMap,           ///< Look at the map of the domain, with everything on it.
-  kShowStates,        ///< Look at the states of an MDP and their names.
-  kListConstraints,   ///< Look at the list of constraints that can be taught or tested.
+  kReplaceContents,  ///< Use another folder, or allow that what this one holds is replaced.
+  kStartOver,        ///< Discard unfinished work and begin anew.
+  kAllowStart,       ///< Do not insist on work to resume.
+  kRunStudy,         ///< Make the results first: run the study.
+  kRunShard,         ///< Make the shard first.
+  kMergeShards,      ///< Put the shards of the study together.
+  kMergePart,        ///< Put together what there is.
+  kAnalyseTable,     ///< Analyse the table on its own, without its run.
+  kShowMap,          ///< Look at the map of the domain, with everything on it.
+  kShowStates,       ///< Look at the states of an MDP and their names.
+  kListConstraints,  ///< Look at the list of constraints that can be taught or tested.
 };
 
 /// How to mend an error: in words, by a remedy, or either.
