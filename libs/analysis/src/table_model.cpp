@@ -146,7 +146,9 @@ std::vector<std::string> identifiers_of(const Dataset& data, const std::vector<s
     const bool is_one = data.kind(column) == ColumnKind::kIdentifier || column == columns::kSeedAddress;
     if (!is_one) continue;
     if (column == columns::kMember) {
-      within(columns::kTeam, column);
+      within(data.has(columns::kTeam) ? columns::kTeam : columns::kSession, column);
+    } else if (column == "user_id") {  // of trials
+      within("group", column);
     } else if (column == columns::kSeat) {
       within(columns::kSession, column);
     } else {
