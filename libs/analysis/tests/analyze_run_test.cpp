@@ -377,11 +377,12 @@ TEST_F(RunTest, HasNoTableWithoutRows) {
 
 TEST_F(RunTest, AveragesTheAreasOfAComponentWithoutItsFirstPeriod) {
   write("teams.csv", other_people(teams()));
-  std::string periods = "team,period,kc,area_sr\n";
+  std::string periods = "strategy,composition,replicate,team,period,kc,area_sr\n";
   for (int team = 9; team <= 24; ++team) {  // the groups
     const double area = team <= 16 ? 0.5 + 0.001 * team : 0.25 + 0.001 * team;
-    periods += std::to_string(team) + ",1,1,9\n" + std::to_string(team) + ",2,1," + std::to_string(area) + "\n" +
-               std::to_string(team) + ",3,1," + std::to_string(area) + "\n";
+    const auto of_team = (team <= 16 ? "common,NNN,1," : "joint,NNN,1,") + std::to_string(team);
+    periods += of_team + ",1,1,9\n";
+    for (const auto* period : {",2,1,", ",3,1,"}) periods += of_team + period + std::to_string(area) + "\n";
   }
   write("periods.csv", periods);
   const auto found = finding(analyse(), "demonstrations");
@@ -422,7 +423,7 @@ TEST_F(RunTest, RefusesDamagedTables) {
   write("teams.csv", text);
   EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0506"}}));
   write("teams.csv", teams() + row("joint", "PPP", 5, 25, 5, 0.5).replace(0, 5, ""));
-  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0503"}}));
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0507"}}));
 }
 
 TEST_F(RunTest, SaysWhatADesignDoesNotAllow) {

@@ -232,17 +232,16 @@ TEST_F(StudyRunTest, SaysThatTheJournalOfAFinishedRunIsMissing) {
   EXPECT_THAT(run.notes(), ElementsAre(AllOf(HasSubstr(kJournalFile), HasSubstr("is missing"))));
 }
 
-TEST_F(StudyRunTest, NamesTheTeamsThatADamagedJournalLost) {
+TEST_F(StudyRunTest, NamesTheTeamWhoseRecordIsDamaged) {
   run_partly(folder_, 5);
   const auto file = folder_ / kJournalFile;
   const auto record = *Journal::read(file).find(4);
   auto content = read_file(file);
   content.replace(content.find(record), record.size(), record.size(), '?');
-  content.replace(0, 100, 100, '?');
   std::ofstream{file, std::ios::binary} << content;
   {
     StudyRun run{folder_, quick_study(), how()};
-    EXPECT_THAT(run.notes(), ElementsAre(AllOf(HasSubstr("4 teams were recovered"), HasSubstr("teams 4, 6"))));
+    EXPECT_THAT(run.notes(), ElementsAre(HasSubstr("the record of team 4 ")));
     EXPECT_EQ(run.num_resumed(), 4u);
   }
   EXPECT_EQ(run(folder_), expected());

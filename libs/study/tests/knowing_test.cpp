@@ -127,14 +127,21 @@ TEST(Knowing, TheSameRobotLeavesNextToNothingToLearn) {
 // people who know nothing and have as many lessons.
 TEST(Knowing, TheOppositeIsHardlyWorseThanNothing) {
   constexpr double kWorse = 0.05;
+  constexpr std::size_t kLessons = 12;  // mostly of a demonstration and a test
   auto opposite = read(study_of_knowing("item-delivery"));
   auto& spec = opposite.study->variants.front();
   const std::vector<HalfSpace> against{HalfSpace{IntegerVector{1, 0, 2}}, HalfSpace{IntegerVector{0, -1, 2}},
                                        HalfSpace{IntegerVector{0, 0, -1}}};
   spec.learner_types.front().knowing = OlderRobot{"opposite", against};
   spec.teaching.known = Cone::intersection(against);
-  const auto nothing = taught(read(kStudy), 10, 12);
-  const auto worse = taught(opposite, 10, 12);
+  auto blank = read(kStudy);
+  for (auto* reading : {&blank, &opposite}) {
+    auto& teaching = reading->study->variants.front().teaching;
+    teaching.mastery = stop_rule_named("fixed");
+    teaching.periods_per_component = kLessons;
+  }
+  const auto nothing = taught(blank, 10, kLessons);
+  const auto worse = taught(opposite, 10, kLessons);
   EXPECT_GT(worse.regret_before, nothing.regret_before);
   EXPECT_LT(worse.regret_after, nothing.regret_after + kWorse * nothing.regret_before);
 }
