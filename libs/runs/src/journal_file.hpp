@@ -26,9 +26,10 @@ void make_journal_file(const std::filesystem::path& path, const JournalIdentity&
 // Whether the team belongs to this study and shard.
 [[nodiscard]] bool belongs(const JournalIdentity& identity, std::int64_t team);
 
-// Copies every intact record of this identity that SQLite reads from the damaged journal at `path` to a new one, which takes its place;
-// the old one is kept as `path`.damaged. Where this is ended, replace_by_salvaged() or the next call goes on.
-// Returns false, and changes nothing, if there is no such record, unless the file is `known` to be of this identity.
+// Copies every intact record of this identity that SQLite reads from the damaged journal at `path` to a new one, which
+// takes its place; the old one is kept as `path`.damaged. Where this is ended, replace_by_salvaged() or the next call
+// goes on. Returns false, and changes nothing, if there is no such record, unless the file is `known` to be of this
+// identity.
 [[nodiscard]] bool salvage_journal(const std::filesystem::path& path, const JournalIdentity& identity, bool known);
 
 // Removes what was left of files that were being made for the journals in a folder when their program ended.

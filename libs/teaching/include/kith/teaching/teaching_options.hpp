@@ -85,8 +85,8 @@ struct TeachingOptions {
   /// What members know of the robot as it was before: a region within the prior, in which beliefs about them begin
   /// (OlderRobot). Nothing: members know the prior only.
   std::optional<Cone> known{};
-  bool shares_bank = true;    ///< Members to whom the same happens share what the bank has of them; not before kith did.
-  bool keep_bank = false;     ///< the bank is kept even if nobody reads it
+  bool shares_bank = true;  ///< Members to whom the same happens share what the bank has of them; not before kith did.
+  bool keep_bank = false;   ///< the bank is kept even if nobody reads it
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules
 };
