@@ -161,6 +161,35 @@ check_columns() {
     search -nE "(\\.|required_)(factor|numbers|texts|cells|boolean|integer|text|count|has)\\(([a-z]+, )?\"(${names:-none})\"" | none
 }
 
+# Lines of source that it reads the names of.
+source_lines() { grep -E '\.(cpp|hpp|ts|tsx|mjs|js|css|html|sh|py|R|cmake)$|CMakeLists\.txt$' | xargs -r -d '\n' cat | wc -l; }
+of_tests='^(tests/|libs/[^/]+/(tests|bench)/|apps/[^/]+/(tests|bench)/|web/(tests|sample)/|python/tests/)'
+lines_of() {  # a part of the table
+  case $1 in
+    tests) files | grep -E "$of_tests" | source_lines ;;
+    words) files '*.md' | grep -vE "$of_tests|CHANGELOG" | xargs -r -d '\n' cat | wc -w ;;
+    apps | web | python | research) files | grep "^$1/" | grep -vE "$of_tests|package-lock" | source_lines ;;
+    *) files | grep "^libs/$1/" | grep -vE "$of_tests" | source_lines ;;
+  esac
+}
+
+# No part is larger than its budget in docs/architecture.md, and none is left out: who needs more lines names what goes.
+check_budget() {
+  local rows part said lines budget layer
+  rows=$(files docs/architecture.md | xargs -r sed -n '/^## Budget/,/^## /p' |
+    sed -nE 's/^\| ([a-z_]+) \| [^|]*\| ([0-9]+) \| ([0-9]+) \|$/\1 \2 \3/p')
+  {
+    while read -r part said budget; do
+      lines=$(lines_of "$part")
+      ((lines <= budget)) || echo "$part has $lines lines, $((lines - budget)) more than its budget: take some out"
+      ((lines * 10 >= said * 9 && lines * 10 <= said * 11)) || echo "$part has $lines lines: docs/architecture.md says $said"
+    done <<<"${rows:-none 0 0}"
+    for layer in $(sed -n 's/^ *add_subdirectory(\([a-z_]*\)).*/\1/p' libs/CMakeLists.txt) apps web python research tests words; do
+      grep -q "^$layer " <<<"$rows" || echo "$layer has no budget in docs/architecture.md"
+    done
+  } | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"

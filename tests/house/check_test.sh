@@ -73,6 +73,20 @@ breaks rows libs/live/src/room.cpp 'if (command.type != "leave") return;\n'
 breaks rows libs/live/src/room.cpp '    default:\n'
 breaks types libs/low/include/x.hpp 'namespace kith {\nstruct A {};\n}  // namespace kith\nnamespace kith {\nclass A final : B {\n'
 tidy_tree
+expect 1 budget 'a tree without budgets'
+{
+  printf '\n## Budget\n\n'
+  for part in low high live table report; do
+    printf '| %s | what | %s | %s |\n' $part "$(cat $(find libs/$part -type f) | wc -l)" 50
+  done
+  printf '| apps | what | %s | 50 |\n' "$(cat $(find apps -type f) | wc -l)"
+  printf '| %s | what | 0 | 0 |\n' web python research tests
+} >>docs/architecture.md
+printf '| words | what | %s | 500 |\n' $(($(find . -name '*.md' -print0 | xargs -0 cat | wc -w) + 9)) >>docs/architecture.md
+expect 0 budget 'a tree within its budgets'
+seq 60 | sed 's|^|// |' >>libs/low/include/x.hpp
+expect 1 budget 'a part that has outgrown its budget'
+tidy_tree
 mkdir libs/stray
 expect 1 layers 'a folder that is not in the list'
 tidy_tree

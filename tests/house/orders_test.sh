@@ -57,7 +57,7 @@ done
 cd "$source_dir"
 python3 - <<'PYTHON'
 import ast, pathlib, sys
-packaged = {"kith", "numpy", "pandas", "support"}
+packaged = {"kith", "numpy", "pandas", "support"} | {path.stem for path in pathlib.Path("python/kith").glob("*.py")}
 for path in sorted(pathlib.Path("python/tests").glob("test_*.py")):
     tree = ast.parse(path.read_text())
     imports = [n for n in tree.body if isinstance(n, (ast.Import, ast.ImportFrom))]
