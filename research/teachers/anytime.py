@@ -3,7 +3,7 @@
 
 usage: anytime.py KITH OUT.csv [--domains FILE...] [--random N] [--teams 30] [--kinds KIND...] [--strategies NAME...]
        anytime.py --summary OUT.csv...
-       anytime.py --page OUT.csv... > results.md
+       anytime.py --page OUT.csv... [--note TEXT] > results.md
 
 Teams of three are taught and sit an exam over the whole domain after every period. The row of a strategy at k items is
 the mean over teams of the exam after the last period within k items, carried on when a team has finished. The
@@ -35,8 +35,9 @@ STRATEGIES += [(f"{name}, whole", name, WHOLE) for name in ("joint", "common")]
 STRATEGIES += [("joint, review", "joint", ("teacher.review=true",))]
 STRATEGIES += [(name, name, WHOLE) for name in ("set-cover", "random", "highlights", "plan")]
 BUILT_IN = ("item-delivery", "colored-tiles", "skateboard", "cookie-crumb", "two-goals", "rescue-floor",
-            "icy-crossing", "lee2021-taxi", "lee2021-two-goals", "lee2021-skateboard", "navigation", "warehouse")
-GALLERY = ("cliff_walking", "four_rooms", "frozen_lake", "frozen_lake_8x8", "taxi")
+            "icy-crossing", "navigation", "warehouse")
+FILES = ("lee2021_taxi", "lee2021_two_goals", "lee2021_skateboard", "gallery/cliff_walking", "gallery/four_rooms",
+         "gallery/frozen_lake", "gallery/frozen_lake_8x8", "gallery/taxi")
 STUDY = """schema = "kith.study/1"
 id = "anytime"
 domain = "{domain}"
@@ -161,11 +162,11 @@ def summary(cells):
     return f"first in {len(cells) - len(lost)} of {len(cells)} cells", lost, medians
 
 
-def page(cells):
+def page(cells, note):
     first, lost, medians = summary(cells)
     print("# Regret after every number of items\n\nMade by `anytime.py --page`. Regret of `plan` and of the best other "
           "strategy at that number of items, which is\nnamed; in bold where `plan` loses: more than 1.1 times as much, "
-          f"and beyond two standard errors.\n\n`plan` is {first}.\n")
+          f"and beyond two standard errors.\n\n{note}`plan` is {first}.\n")
     print(*(f"* {median}" for median in medians), sep="\n")
     names = list(dict.fromkeys(cell[:2] for cell in cells))
     print("\n| domain | people |", *(f" {k} |" for k in ITEMS), "\n|---|---|", "---|" * len(ITEMS), sep="")
@@ -188,6 +189,7 @@ def main():
     parser.add_argument("out", nargs="?")
     parser.add_argument("--summary", nargs="+")
     parser.add_argument("--page", nargs="+")
+    parser.add_argument("--note", default="", help="for the page: when and with how many teams")
     parser.add_argument("--random", type=int, default=0)
     parser.add_argument("--domains", nargs="+")
     parser.add_argument("--teams", type=int, default=30)
@@ -195,7 +197,7 @@ def main():
     parser.add_argument("--strategies", nargs="+")
     arguments = parser.parse_args()
     if arguments.page:
-        page(read_cells(arguments.page))
+        page(read_cells(arguments.page), f"{arguments.note} " if arguments.note else "")
         return
     if arguments.summary:
         first, lost, medians = summary(read_cells(arguments.summary))
@@ -204,7 +206,7 @@ def main():
         return
     with open(arguments.out, "w", newline="", encoding="utf-8") as out, tempfile.TemporaryDirectory() as folder:
         domains = arguments.domains or ([] if arguments.random else
-                                        [*BUILT_IN, *(ROOT / f"domains/gallery/{name}.toml" for name in GALLERY)])
+                                        [*BUILT_IN, *(ROOT / f"domains/{name}.toml" for name in FILES)])
         domains = [*domains, *random_domains(arguments.kith, arguments.random, folder)]
         table = csv.writer(out)
         table.writerow(["domain", "kind", "strategy", "k", "regret", "regret_se", "share", "share_se", "teams"])

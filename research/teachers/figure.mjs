@@ -15,14 +15,14 @@ const axis = { gridColor: '#ddd', domainColor: '#888', tickColor: '#888' };
 const chart = load('vega-lite').compile({
   data: { values: rows },
   facet: { field: 'domain', title: null, sort: null },
-  columns: 3,
+  columns: 5,
   spec: {
-    width: 180,
-    height: 140,
+    width: 130,
+    height: 130,
     mark: { type: 'line', point: { size: 18 } },
     encoding: {
       x: { field: 'k', type: 'quantitative', title: 'Demonstrations and tests', axis: { ...axis, values: [4, 8, 15, 25, 40] } },
-      y: { field: 'regret', type: 'quantitative', scale: { type: 'log' }, title: 'Regret', axis: { ...axis, tickCount: 5, format: '.0e' } },
+      y: { field: 'regret', type: 'quantitative', scale: { type: 'log' }, title: 'Regret', axis: { ...axis, grid: false, tickCount: 4, format: '.0e' } },
       color: { field: 'strategy', type: 'nominal', title: 'Strategy', sort: SHOWN, scale: { domain: SHOWN, range: ['#1f5fbf', '#222', '#b45f06', '#999', '#7a3e9d'] } },
       strokeWidth: { condition: { test: "datum.strategy === 'plan'", value: 3 }, value: 1.2 },
     },
