@@ -13,6 +13,7 @@
 #include "parameters_toml.hpp"
 #include "read_contrasts.hpp"
 #include "read_group.hpp"
+#include "read_knowing.hpp"
 #include "read_prior.hpp"
 #include "study_keys.hpp"
 
@@ -46,7 +47,7 @@ class SpecReader {
     if (auto design = root_.table("design", Presence::kRequired)) read_design(*design);
     const bool is_design_good = report_.num_errors() == num_errors;  // else every contrast of it would be wrong, too
     if (auto teacher = root_.table("teacher", Presence::kOptional)) read_teacher(*teacher);
-    if (!report_.has_errors()) presume_knowing();
+    if (!report_.has_errors()) presume_knowing(root_, spec_, domain_, report_);
     if (auto stop = root_.table("stop", Presence::kOptional)) read_stop(*stop);
     if (auto pace = root_.table("pace", Presence::kOptional)) read_all(*pace, pace_keys());
     if (auto record = root_.table("record", Presence::kOptional)) read_all(*record, record_keys());
@@ -364,51 +365,12 @@ class SpecReader {
     if (const auto* prior = table.array("prior", Presence::kOptional)) {
       type.prior = read_prior(*prior, table.value("prior", Presence::kOptional)->place(), domain_, report_);
     }
-    type.knowing = read_knowing(table);
+    type.knowing = read_knowing(table, domain_, report_);
     table.finish();
-    if (report_.num_errors() == errors) check_knowing(table, type);
+    if (report_.num_errors() == errors) check_knowing(table, type, domain_, report_);
     if (report_.num_errors() == errors) check_parameters(table, type);
     if (report_.num_errors() == errors) check_that_people_exist(table, type);
     return type;
-  }
-
-  // knowing = { robot = "...", halfspaces = [...] }; what named a file has been replaced by it, or reported.
-  [[nodiscard]] std::optional<OlderRobot> read_knowing(TomlReader& table) {
-    const auto* value = table.value("knowing", Presence::kOptional);
-    if (value == nullptr || value->string() != nullptr) return std::nullopt;
-    auto known = table.table("knowing", Presence::kRequired);
-    if (!known) return std::nullopt;
-    const auto robot = known->string("robot", Presence::kRequired);
-    const auto* list = known->array("halfspaces", Presence::kRequired);
-    known->finish();
-    if (!robot || list == nullptr) return std::nullopt;
-    auto region = read_prior(*list, value->place(), domain_, report_, true);
-    return region ? std::optional{OlderRobot{*robot, *std::move(region)}} : std::nullopt;
-  }
-
-  void check_knowing(TomlReader& table, const LearnerType& type) {
-    if (!type.knowing || domain_ == nullptr) return;
-    auto prior = Cone{domain_->num_features()};
-    if (!prior.clip(domain_->prior()) || known_to(type, prior)) return;
-    report_.infeasible("E0425", table.value("knowing", Presence::kOptional)->place(),
-                       "nobody can know '" + type.knowing->name + "' and the prior: no weights satisfy both",
-                       "leave out of the prior what did not hold before the update");
-  }
-
-  // The teacher knows what people know, unless it is told otherwise or they know different things.
-  void presume_knowing() {
-    const auto known = known_to_all(spec_);
-    const bool anybody =
-        std::ranges::any_of(spec_.learner_types, [](const auto& type) { return type.knowing.has_value(); });
-    if (!spec_.assumes_knowing || domain_ == nullptr) return;
-    if (known) {
-      Cone prior{domain_->num_features()};
-      if (prior.clip(domain_->prior())) spec_.teaching.known = known_within(std::move(prior), known->region);
-    } else if (anybody) {
-      report_.warning("W0409", root_.value("learner", Presence::kOptional)->place(),
-                      "the teacher assumes that nobody knows an older robot, because not all learners know the same",
-                      "give everybody the same 'knowing', or say teacher.knowing = \"nothing\"");
-    }
   }
 
   // Null after reporting that there is no such kind.
