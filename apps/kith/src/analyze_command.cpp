@@ -54,10 +54,9 @@ struct AnalyzeOptions {
 AnalysisOptions analysis_options(const AnalyzeOptions& options) {
   AnalysisOptions result;
   result.alpha = options.alpha;
-  result.correction = options.correction == "holm"   ? Correction::kHolm
-                      : options.correction == "fdr"  ? Correction::kFdr
-                      : options.correction == "none" ? Correction::kNone
-                                                     : Correction::kBonferroni;
+  for (const auto& known : kWordsFor<Correction>) {
+    if (known.word == options.correction) result.correction = known.value;
+  }
   for (const auto& text : options.contrasts) result.contrasts.push_back(parse_contrast(text));
   result.by = options.by;
   return result;
@@ -320,7 +319,7 @@ void declare(OptionList& list, AnalyzeOptions& options) {
   list.flag("--all", options.all, "Of a run every finding, with all notes and tables").excludes(brief);
   // Far below 10^-6 and as near to 1 there are no quantiles any more.
   list.number("--alpha", options.alpha, "P", {1e-6, 1.0 - 1e-6}, "Significance level; intervals use 1 - alpha");
-  list.word("--correct", options.correction, "HOW", {"bonferroni", "holm", "fdr", "none"},
+  list.word("--correct", options.correction, "HOW", {words_for<Correction>().begin(), words_for<Correction>().end()},
             "Correction for families of tests: compositions, planned contrasts");
   list.json();
 }

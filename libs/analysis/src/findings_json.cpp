@@ -2,27 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "kith/analysis/finding.hpp"
+#include "result_words.hpp"
 
 namespace kith {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* name_of(ResultKind kind) {
-  switch (kind) {
-    case ResultKind::kText:
-      return "text";
-    case ResultKind::kCount:
-      return "count";
-    case ResultKind::kNumber:
-      return "number";
-    case ResultKind::kFraction:
-      return "fraction";
-    case ResultKind::kP:
-      return "p";
-  }
-  return "";
-}
 
 Json cell_json(const TableCell& cell) {
   return std::visit(
@@ -50,7 +35,7 @@ Json table_json(const ResultTable& table) {
   Json columns = Json::array(), rows = Json::array();
   for (std::size_t c = 0; c < fields.size(); ++c) {
     const auto& column = table.columns[c];
-    columns.push_back({{"field", fields[c]}, {"name", column.name}, {"kind", name_of(column.kind)}});
+    columns.push_back({{"field", fields[c]}, {"name", column.name}, {"kind", word_for(column.kind)}});
   }
   for (const auto& cells : table.rows) {
     Json row = Json::object();

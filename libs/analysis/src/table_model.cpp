@@ -11,44 +11,34 @@
 #include "kith/table/column_names.hpp"
 #include "kith/table/csv_writer.hpp"
 #include "model_means.hpp"
+#include "result_words.hpp"
 
 namespace kith {
 namespace {
 
 using RJson = nlohmann::ordered_json;
 
-const char* word_of_correction(Correction correction) {
-  switch (correction) {
-    case Correction::kHolm:
-      return "holm";
-    case Correction::kFdr:
-      return "fdr";
-    case Correction::kNone:
-      return "none";
-    case Correction::kBonferroni:
-      break;
-  }
-  return "bonferroni";
+// "`score` ~ a" as "score".
+std::string response_of(const std::string& formula) {
+  const auto text = formula.substr(0, formula.find('~'));
+  const auto begin = text.find_first_not_of(" `");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" `") + 1 - begin);
 }
 
-const char* word_of_response(const Dataset& data, const ModelQuestion& question) {
+// As in a plan; nothing for numbers, and if there is no such column, which R says.
+std::string_view word_of_response(const Dataset& data, const ModelQuestion& question) {
   auto kind = question.response_kind;
-  const auto response = question.formula.substr(0, question.formula.find('~'));
-  for (const auto& column : data.columns()) {
-    if (kind == ColumnKind::kUnspecified && response.find_first_not_of(" `") != std::string::npos &&
-        response.substr(response.find_first_not_of(" `"),
-                        response.find_last_not_of(" `") + 1 - response.find_first_not_of(" `")) == column)
-      kind = data.kind(column);
-  }
+  const auto response = response_of(question.formula);
+  if (kind == ColumnKind::kUnspecified && data.has(response)) kind = data.kind(response);
   if (kind == ColumnKind::kOrdinal) return "ordinal";
   return kind == ColumnKind::kCount ? "count" : "";
 }
 
 ResultKind kind_named(const std::string& name) {
-  if (name == "text") return ResultKind::kText;
-  if (name == "count") return ResultKind::kCount;
-  if (name == "fraction") return ResultKind::kFraction;
-  return name == "p" ? ResultKind::kP : ResultKind::kNumber;
+  for (const auto& known : kWordsFor<ResultKind>) {
+    if (known.word == name) return known.value;
+  }
+  return ResultKind::kNumber;
 }
 
 // What does not apply to a row is absent; what cannot be estimated is null.
@@ -172,7 +162,7 @@ std::string table_plan(const Dataset& data, const ModelQuestion& question, const
              {"identifiers", identifiers_of(data, question.identifiers)},
              {"independent", question.independent},
              {"alpha", options.alpha},
-             {"correction", word_of_correction(options.correction)},
+             {"correction", word_for(options.correction)},
              {"by", options.by},
              {"contrasts", RJson::array()}};
   for (const auto& contrast : options.contrasts) {
@@ -191,7 +181,7 @@ std::optional<Analysis> analyze_balanced_table(const Dataset& data, const ModelQ
                                                const AnalysisOptions& options) {
   const auto names = names_of(question.formula);
   const bool is_plain = !names.empty() && !question.observed && !question.smallest_effect &&
-                        *word_of_response(data, question) == '\0' &&
+                        word_of_response(data, question).empty() &&
                         std::all_of(names.begin(), names.end(), [&](const auto& name) { return data.has(name); });
   if (!is_plain) return std::nullopt;
   const auto rows = data.complete(names);

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "kith/core/option_key.hpp"
 
 namespace kith {
 
@@ -11,6 +14,11 @@ namespace kith {
 /// Holm), or the expected share of false claims among all claims (false discovery rate) [benjamini1995].
 enum class Correction { kNone, kBonferroni, kHolm, kFdr };
 [[nodiscard]] std::string_view to_string(Correction correction) noexcept;
+/// As options and plans name them.
+template <>
+inline constexpr std::array kWordsFor<Correction>{WordFor{Correction::kBonferroni, "bonferroni"},
+                                                  WordFor{Correction::kHolm, "holm"}, WordFor{Correction::kFdr, "fdr"},
+                                                  WordFor{Correction::kNone, "none"}};
 
 /// Adjusted p-values, in the order given, in [0, 1] (R: p.adjust).
 [[nodiscard]] std::vector<double> adjust(std::span<const double> p_values, Correction correction);
