@@ -22,10 +22,10 @@ class PriorCover {
  public:
   /// @param prior the hard prior; may be the whole sphere. @param particles M. @param axes the axes in the order that
   /// cover() is to take them; empty: as they are.
-  /// @throws std::invalid_argument if particles is 0.
   /// @param known  a region in the prior that people know: half of the points cover it, with a mass of 1 -
   /// kBeyondKnown. Of the others one in d + 1 lies anywhere in the prior; the rest are known weights with another value
   /// of one feature, as most updates change one thing.
+  /// @throws std::invalid_argument if particles is 0.
   PriorCover(Cone prior, std::size_t particles, std::span<const std::size_t> axes = {}, std::optional<Cone> known = {});
 
   [[nodiscard]] const Cone& prior() const noexcept { return prior_; }
