@@ -72,6 +72,25 @@ TEST(TeamExam, AsksQuestionsIfTheStudySaysSo) {
   EXPECT_EQ(team.exams.size(), 2u * 4u);
 }
 
+// Of 24 teams that are stopped with a probability of a half, about 16 know enough, and fewer than 12 if the rule went
+// by some of the starts only (.32 instead of .72 of 50 teams).
+TEST(TeamExam, ConfirmsTheStopRuleThatExpectsIt) {
+  auto study = examined_study(ExamLevel::kEnd, 0, "plan");
+  auto& spec = study.variants.front();
+  spec.replicates = 24;
+  spec.compositions = {"NNN"};
+  spec.teaching.mastery = stop_rule_named("exam");
+  spec.teaching.probability = 0.5;
+  std::size_t stopped = 0, know = 0;
+  for (const auto& team : teams_of(study)) {
+    if (!team.completed()) continue;
+    ++stopped;
+    if (team.exam->worst_share_right >= spec.teaching.share_right) ++know;
+  }
+  EXPECT_EQ(stopped, spec.replicates);
+  EXPECT_GE(2 * know, stopped);
+}
+
 TEST(TeamExam, ChangesNothingElse) {
   const auto with = teams_of(examined_study(ExamLevel::kPeriod, 6));
   const auto without = teams_of(examined_study(ExamLevel::kNone));

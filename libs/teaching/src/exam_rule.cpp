@@ -14,6 +14,7 @@ namespace {
 class ExamRule : public StopRule {
  public:
   explicit ExamRule(TeachingCache& cache) {
+    exam_ = cache.shared_exam();
     for (std::size_t k = 0; k < cache.atlas().knowledge_components().size(); ++k) starts_.push_back(cache.starts_of(k));
   }
 
@@ -28,9 +29,10 @@ class ExamRule : public StopRule {
 
  private:
   [[nodiscard]] StopVerdict judge(const ClosedTests& closed, const std::vector<bool>& members) const {
-    const auto& sample = *starts_[closed.lesson.component];
     const auto& options = closed.view.options;
-    const auto share_right = [&](const ParticleBelief& belief) { return sample.share_right(belief); };
+    const auto share_right = [&](const ParticleBelief& belief) {
+      return expected_share(closed.view.atlas, belief, closed.lesson.component);
+    };
     std::vector<double> certain;
     for (std::size_t i = 0; i < members.size(); ++i) {
       if (!members[i]) continue;
@@ -42,6 +44,20 @@ class ExamRule : public StopRule {
     return {closed.periods_of_component() >= options.min_periods && all >= options.probability, all};
   }
 
+  // Of the component's starts: of all of them with tables, else of a sample.
+  [[nodiscard]] double expected_share(const Atlas& atlas, const ParticleBelief& belief, std::size_t component) const {
+    const auto* table = exam_->table();
+    if (table == nullptr) return starts_[component]->share_right(belief);
+    const auto& cells = atlas.tables().cells();
+    const auto x = belief.x(), y = belief.y(), z = belief.z(), weights = belief.weights();
+    double share = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      share += weights[i] * table->component(cells.locate(Eigen::Vector3d{x[i], y[i], z[i]}), component).share_right;
+    }
+    return share;
+  }
+
+  std::shared_ptr<const Exam> exam_;
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
 };
 
