@@ -192,7 +192,7 @@ export function makeContent(runs) {
         const one = mastery(`posterior ${p}`);
         return Math.abs(one.predicted.value - one.actual.value) <= 0.05 && one.stalled.value <= 0.01;
       }),
-    'enough-is-enough': () => ['item-delivery', 'colored-tiles'].every((name) => [0.9, 0.95].every((p) => enough(name, p).share.value >= p)),
+    'enough-is-enough': () => ['item-delivery', 'colored-tiles'].every((name) => CERTAIN.every((p) => enough(name, p).share.value >= p)),
     'releasing-costs-knowledge': () =>
       Object.keys(CREWS).every((crew) => {
         const [all, released] = [`${crew} together`, `${crew} together, release = "posterior"`];
