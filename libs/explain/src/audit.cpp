@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "kith/explain/contrast.hpp"
@@ -77,7 +78,8 @@ Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
     : cache_{&cache}, options_{options}, unit_{reference_feature(cache.atlas())} {
   const bool is_good = is_probability(options.sure) && is_probability(options.likely) && options.negligible >= 0.0 &&
                        is_probability(options.wrongly) && options.unexplained >= 0.0 && options.unexplained < 1.0 &&
-                       options.telling >= 1.0 && options.against_stopping > 0.0 && options.forgetting >= 0.0 &&
+                       options.telling >= 1.0 && options.against_stopping > 0.0 &&
+                       options.against_stopping_examined > 0.0 && options.forgetting >= 0.0 &&
                        std::isfinite(options.forgetting);
   if (!is_good) throw std::invalid_argument{"Auditor: an option is out of range"};
   const auto& atlas = cache.atlas();
@@ -91,7 +93,7 @@ std::optional<double> PersonAudit::knowledge() const {
   double sum = 0.0;
   std::size_t taught = 0;
   for (const auto& audit : components) {
-    if (audit.periods == 0) continue;
+    if (audit.understanding == Understanding::kNotTaught) continue;
     sum += audit.level.mean;
     ++taught;
   }
@@ -124,6 +126,17 @@ PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, std::shared_
                            const RandomStream& random) {
   MisconceptionBank bank{cache_->atlas(), options_.bank, std::move(beliefs)};
   for (const auto& period : periods) bank.observe(cache_->atlas(), period);
+  auto person = judge(bank, periods);
+  for (auto& audit : person.components) {
+    if (audit.understanding == Understanding::kNotTaught) continue;
+    if (person.is_explained) name_misconception(bank, periods, audit);
+    audit.test = choose_test(bank, audit, periods);
+  }
+  if (person.is_explained) plan_tests(bank, random.split("forget"), person.components);
+  return person;
+}
+
+PersonAudit Auditor::judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods) const {
   PersonAudit person;
   person.components.resize(constraints_.size());
   count(periods, person.components);
@@ -131,42 +144,39 @@ PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, std::shared_
   person.is_explained = person.agreement.p >= options_.unexplained;
   person.learning = bank.probability_of_learning();
   person.guessing = bank.probability_of_guessing();
-  if (person.is_explained) {
-    judge(bank, periods, person);
-    if (options_.bank.known) person.believes_older = probability_of_older(bank);
-  } else {
-    judge_by_answers(person);
-  }
+  if (person.is_explained && options_.bank.known) person.believes_older = probability_of_older(bank);
   for (auto& audit : person.components) {
-    if (audit.periods > 0) audit.test = choose_test(bank, audit, periods);
+    const bool is_judged = audit.periods > 0 || audit.examined > 0;
+    if (!person.is_explained) {
+      judge_by_answers(audit, is_judged);
+      continue;
+    }
+    audit.level = credible_level(bank.shares(constraints_[audit.component]), options_.level);
+    if (!is_judged) continue;
+    audit.doubt = doubt(bank, audit);
+    audit.understanding = audit.doubt == Doubt::kNone ? Understanding::kUnderstands : Understanding::kCannotTell;
   }
-  if (person.is_explained) plan_tests(bank, random.split("forget"), person.components);
   return person;
 }
 
-void Auditor::judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods, PersonAudit& person) {
-  const bool shows_learning = bank.odds_of_learning() * options_.wrongly >= 1.0;
-  for (std::size_t k = 0; k < person.components.size(); ++k) {
-    auto& audit = person.components[k];
-    audit.level = credible_level(bank.shares(constraints_[k]), options_.level);
-    if (audit.periods == 0) continue;
-    audit.understanding = Understanding::kCannotTell;
-    audit.misconception = misconception(bank, k, periods);
-    audit.doubt = Doubt::kAnswers;
-    if (audit.level.probability >= options_.sure) {
-      const auto goes_on = [&] {
-        return bank.odds_against_stopping(constraints_[k], options_.level) >= options_.against_stopping;
-      };
-      audit.doubt = !shows_learning ? Doubt::kLearning : goes_on() ? Doubt::kNone : Doubt::kStopping;
-    }
-    if (audit.doubt == Doubt::kNone) {
-      audit.understanding = Understanding::kUnderstands;
-    } else if (audit.misconception && audit.misconception->probability >= options_.likely) {
-      audit.understanding = Understanding::kMisconception;
-      audit.doubt = Doubt::kNone;
-      choose_demonstration(bank, k, periods, *audit.misconception);
-    }
-  }
+Doubt Auditor::doubt(const MisconceptionBank& bank, const ComponentAudit& audit) const {
+  if (audit.level.probability < options_.sure) return Doubt::kAnswers;
+  const bool is_examined = bank.num_boards() > 0;
+  const double halves = is_examined ? bank.odds_against_halves() : std::numeric_limits<double>::infinity();
+  if (std::min(bank.odds_of_learning(), halves) * options_.wrongly < 1.0) return Doubt::kLearning;
+  const double odds = bank.odds_against_stopping(constraints_[audit.component], options_.level);
+  return odds < (is_examined ? options_.against_stopping_examined : options_.against_stopping) ? Doubt::kStopping
+                                                                                               : Doubt::kNone;
+}
+
+void Auditor::name_misconception(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods,
+                                 ComponentAudit& audit) {
+  audit.misconception = misconception(bank, audit.component, periods);
+  const bool is_likely = audit.misconception && audit.misconception->probability >= options_.likely;
+  if (audit.understanding == Understanding::kUnderstands || !is_likely) return;
+  audit.understanding = Understanding::kMisconception;
+  audit.doubt = Doubt::kNone;
+  choose_demonstration(bank, audit.component, periods, *audit.misconception);
 }
 
 double Auditor::probability_of_older(const MisconceptionBank& bank) const {
@@ -178,25 +188,34 @@ double Auditor::probability_of_older(const MisconceptionBank& bank) const {
 }
 
 // Nothing is known of how these people learn, or of whether they will remember.
-void Auditor::judge_by_answers(PersonAudit& person) const {
-  for (auto& audit : person.components) {
-    audit.level = level_by_answers(audit.correct, audit.tests, options_.level);
-    if (audit.periods == 0) continue;
-    const bool understands = audit.level.probability >= options_.sure;
-    audit.understanding = understands ? Understanding::kUnderstands : Understanding::kCannotTell;
-    audit.doubt = understands ? Doubt::kNone : Doubt::kAnswers;
-    audit.test_after = understands ? 1 : 0;
-  }
+void Auditor::judge_by_answers(ComponentAudit& audit, bool is_judged) const {
+  audit.level = level_by_answers(audit.correct, audit.tests, options_.level);
+  if (!is_judged) return;
+  const bool understands = audit.level.probability >= options_.sure;
+  audit.understanding = understands ? Understanding::kUnderstands : Understanding::kCannotTell;
+  audit.doubt = understands ? Doubt::kNone : Doubt::kAnswers;
+  audit.test_after = understands ? 1 : 0;
 }
 
+// A board of an exam counts for every component of which it examines a constraint.
 void Auditor::count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const {
   for (std::size_t k = 0; k < audits.size(); ++k) audits[k].component = k;
   for (const auto& period : periods) {
-    auto& audit = audits[period.component];
-    ++audit.periods;
-    for (const auto& verdict : period.verdicts) {
-      ++audit.tests;
-      audit.correct += verdict.correct ? 1u : 0u;
+    for (auto& audit : audits) {
+      const auto& own = constraints_[audit.component];
+      const auto is_own = [&](const HalfSpace& c) { return std::find(own.begin(), own.end(), c) != own.end(); };
+      if (period.is_exam) {
+        const auto& examined = period.tests.front().covered;
+        if (std::none_of(examined.begin(), examined.end(), is_own)) continue;
+        ++audit.examined;
+      } else {
+        if (period.component != audit.component) continue;
+        ++audit.periods;
+      }
+      for (const auto& verdict : period.verdicts) {
+        ++audit.tests;
+        audit.correct += verdict.correct ? 1u : 0u;
+      }
     }
   }
 }

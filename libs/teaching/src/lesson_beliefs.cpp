@@ -15,14 +15,17 @@ double KnownBelief::mass_in(std::span<const HalfSpace> half_spaces) {
   return masses_.back().second;
 }
 
-AnswerFit::Rating KnownBelief::rating(const Atlas& atlas, const AnswerFit& fit) {
-  if (!fit.is_by_cells()) return fit.of(belief_, *cells_);
+std::span<const double> KnownBelief::cell_masses(const Atlas& atlas) {
   if (cell_masses_.empty()) {
     cell_masses_.assign(atlas.tables().cells().size(), 0.0);
     const auto cells = cells_->of(atlas, belief_);
     for (std::size_t i = 0; i < cells.size(); ++i) cell_masses_[cells[i]] += belief_.weights()[i];
   }
-  return fit.of(cell_masses_);
+  return cell_masses_;
+}
+
+AnswerFit::Rating KnownBelief::rating(const Atlas& atlas, const AnswerFit& fit) {
+  return fit.is_by_cells() ? fit.of(cell_masses(atlas)) : fit.of(belief_, *cells_);
 }
 
 LessonBeliefs::LessonBeliefs(TeachingCache& cache, Options options, std::span<const Cone> priors,

@@ -113,28 +113,38 @@ void MisconceptionBank::let_some_stop() {
 }
 
 void MisconceptionBank::observe(const Atlas& atlas, const ObservedPeriod& period) {
-  beliefs_->take(num_periods_, period);
-  if (num_periods_ > 0) let_some_stop();
+  if (!period.is_exam) beliefs_->take(num_periods_, period);
+  if (!period.is_exam && num_periods_ > 0) let_some_stop();
   const AnswerFit fit{atlas, period.tests, period.answers, period.verdicts, AnswerFit::Missing::kIsWrong};
   num_tests_ += fit.num_tests();
   num_right_ += fit.num_right();
-  if (fit.num_tests() > 0) weigh(atlas, fit);
+  if (fit.num_tests() > 0) weigh(atlas, fit, period.is_exam);
+  if (period.is_exam) {
+    ++num_boards_;
+    return;
+  }
   ++num_periods_;
   if (!period.feedback.empty()) mend();
 }
 
-void MisconceptionBank::weigh(const Atlas& atlas, const AnswerFit& fit) {
+void MisconceptionBank::weigh(const Atlas& atlas, const AnswerFit& fit, bool is_exam) {
   double sum = 0.0, best = 0.0;
+  const double learned = probability_of_learning();
   for (auto& person : people_) {
     if (person.weight == 0.0 && person.likelihood == 0.0) continue;
-    auto& believed =
-        person.periods == kGoesOn ? beliefs_->answering(person.state, person.hypothesis, num_periods_) : belief(person);
+    auto& believed = person.periods == kGoesOn && !is_exam
+                         ? beliefs_->answering(person.state, person.hypothesis, num_periods_)
+                         : belief(person);
     const auto rating = believed.rating(atlas, fit);
     person.weight *= rating.likelihood;
     person.likelihood *= rating.likelihood;
     person.right = convolved(person.right, rating.right);
     sum += person.weight;
     best = std::max(best, person.likelihood);
+  }
+  if (learned > 0.0) {
+    const double learns = probability_of_learning() / learned, guess = fit.of(AnswerFit::Guess::kSensible).likelihood;
+    odds_against_halves_ *= 2.0 * learns / (learns + guess);
   }
   others_.see_answers(fit);
   sum += others_.weight();
@@ -264,6 +274,30 @@ double MisconceptionBank::probability_of(std::span<const HalfSpace> half_spaces)
   double sum = 0.0;
   for (const auto& share : shares(half_spaces)) sum += share.weight * share.share;
   return sum;
+}
+
+std::vector<PossiblePerson> MisconceptionBank::possible_people(double least) const {
+  using Kind = PossiblePerson::Kind;
+  for (std::size_t h = 0; h < beliefs_->hypotheses().size(); ++h) {
+    for (std::size_t s = 0; s < beliefs_->num_states(); ++s) static_cast<void>(beliefs_->after(s, h, num_periods_));
+  }
+  std::vector<PossiblePerson> result;
+  for (const auto& person : people_) {
+    if (person.weight < least) continue;
+    const auto kind = person.state > 0            ? Kind::kMisconceives
+                      : person.periods == kGoesOn ? Kind::kLearns
+                                                  : Kind::kDoesNotLearn;
+    result.push_back({person.weight, kind, &belief(person)});
+  }
+  for (const auto& state : others_.states()) {
+    if (state.weight < least) continue;
+    if (state.belief) {  // the prior
+      result.push_back({state.weight, Kind::kDoesNotLearn, &beliefs_->after(0, 0, 0)});
+    } else {
+      result.push_back({state.weight, Kind::kGuesses, nullptr, state.guess});
+    }
+  }
+  return result;
 }
 
 std::vector<Direction> MisconceptionBank::violators(const HalfSpace& constraint, std::size_t n) const {

@@ -166,27 +166,16 @@ void Session::show() {
 }
 
 Verdict Session::judge(const Test& test, const Answer& answer) const {
-  Verdict verdict;
-  verdict.answered = answer.has_value();
-  if (!answer) return verdict;
-  const auto& domain = atlas_->domain();
+  if (!answer) return verdict_on(*atlas_, test, answer);
   const auto& robot = atlas_->feature_counts(test.demo);
   if (answer->size() != robot.size()) {
     refuse("an answer has " + std::to_string(answer->size()) + " feature counts instead of " +
            std::to_string(robot.size()));
   }
-  const auto judged = judge_path(domain, robot, *answer);
-  if (judged.is_better) refuse("an answer earns more than the robot's optimal behaviour, which no path can");
-  verdict.correct = judged.is_right;
-  verdict.regret = judged.regret;
-  auto preferred = preference(-judged.loss, domain.count_scale());  // of the answer to the robot's path
-  if (verdict.correct) {
-    // Another path that is as good shows no preference between the two, and nothing about others.
-    if (!preferred) verdict.half_spaces = test.covered;
-  } else if (preferred) {
-    verdict.half_spaces.push_back(std::move(*preferred));
+  if (judge_path(atlas_->domain(), robot, *answer).is_better) {
+    refuse("an answer earns more than the robot's optimal behaviour, which no path can");
   }
-  return verdict;
+  return verdict_on(*atlas_, test, answer);
 }
 
 // What the answers show. @throws Error if they cannot be answers to the current tests.

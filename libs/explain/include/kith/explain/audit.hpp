@@ -19,7 +19,7 @@ namespace kith {
 
 /// What can be said of a person and a component.
 enum class Understanding {
-  kNotTaught,      ///< The person has had no lesson about it.
+  kNotTaught,      ///< The person has had no lesson about it, and was not examined.
   kUnderstands,    ///< Almost certainly satisfies all its constraints often enough.
   kCannotTell,     ///< Neither of the others.
   kMisconception,  ///< More likely than not violates one of its constraints.
@@ -65,9 +65,10 @@ struct ComponentAudit {
   Doubt doubt = Doubt::kNone;
   /// How often the person would satisfy all constraints of the component: `probability` is that of understanding.
   CredibleLevel level;
-  std::size_t periods = 0;  ///< With lessons about it.
-  std::size_t tests = 0;    ///< Asked in these; one that stopped short or was not answered in time is wrong.
-  std::size_t correct = 0;  ///< Of them.
+  std::size_t periods = 0;   ///< With lessons about it.
+  std::size_t examined = 0;  ///< Boards of an exam that ask about it.
+  std::size_t tests = 0;     ///< Asked in all of these; one that stopped short or was not answered in time is wrong.
+  std::size_t correct = 0;   ///< Of them.
   /// The likeliest of the component's; nothing if it is not taught yet, or too unlikely to speak of.
   std::optional<LikelyMisconception> misconception{};
   /// The simplest start that tests what the person gets wrong, or else what is least certain; another one than was
@@ -110,6 +111,9 @@ struct AuditOptions {
   /// from anybody who stopped before (MisconceptionBank::odds_against_stopping()). With 3.5, at most 2 % of those who
   /// stop half way are said to understand what they do not (docs/audit.md).
   double against_stopping = 3.5;
+  /// The same of people who were examined, whose answers must also be 1 / wrongly times as probable as from those who
+  /// guess every other time (MisconceptionBank::odds_against_halves()).
+  double against_stopping_examined = 0.5;
   /// Agreement::p below which the answers of a person count as not explained.
   double unexplained = 0.01;
   double likely = 0.5;      ///< Probability from which a misconception is said to be there.
@@ -144,8 +148,12 @@ class Auditor {
 
  private:
   void count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const;
-  void judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods, PersonAudit& person);
-  void judge_by_answers(PersonAudit& person) const;
+  friend class Examination;
+  [[nodiscard]] PersonAudit judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods) const;
+  [[nodiscard]] Doubt doubt(const MisconceptionBank& bank, const ComponentAudit& audit) const;
+  void name_misconception(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods,
+                          ComponentAudit& audit);
+  void judge_by_answers(ComponentAudit& audit, bool is_judged) const;
   [[nodiscard]] double probability_of_older(const MisconceptionBank& bank) const;
   [[nodiscard]] std::optional<LikelyMisconception> misconception(const MisconceptionBank& bank, std::size_t component,
                                                                  std::span<const ObservedPeriod> periods);

@@ -28,6 +28,8 @@ class KnownBelief {
   [[nodiscard]] const ParticleBelief& belief() const noexcept { return belief_; }
   /// See ParticleBelief::mass_in().
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces);
+  /// Of every policy cell. @pre behaviours are tabulated.
+  [[nodiscard]] std::span<const double> cell_masses(const Atlas& atlas);
   /// See AnswerFit::of().
   [[nodiscard]] AnswerFit::Rating rating(const Atlas& atlas, const AnswerFit& fit);
 

@@ -30,6 +30,16 @@ struct Agreement {
   friend bool operator==(const Agreement&, const Agreement&) = default;
 };
 
+/// Somebody whom a person may be, as a bank has it.
+struct PossiblePerson {
+  /// What lessons do to them.
+  enum class Kind { kLearns, kMisconceives, kDoesNotLearn, kGuesses };
+  double weight = 0.0;  ///< Probability.
+  Kind kind = Kind::kLearns;
+  KnownBelief* belief = nullptr;  ///< Null: guesses.
+  AnswerFit::Guess guess = AnswerFit::Guess::kSensible;
+};
+
 /// What one person believes, judged by the person's answers: people who learn, misconceptions that lessons do not mend,
 /// people who stop learning, and those who guess or never learn (NonLearners).
 ///
@@ -43,7 +53,7 @@ struct Agreement {
 /// with P as in AnswerFit. The second step says that the feedback of a period may mend a misconception. Before any
 /// period but the first, a share NonLearners::kStop of those in state 0 stop learning: they keep the belief B_0h that
 /// they have then, which makes a state of its own for every period. Where there are many hypotheses, one stands for
-/// four of people with a misconception.
+/// four of people with a misconception. Boards of an exam (ObservedPeriod::is_exam) weigh, and change nobody.
 class MisconceptionBank {
  public:
   struct Options : LessonBeliefs::Options {
@@ -72,6 +82,12 @@ class MisconceptionBank {
   [[nodiscard]] double probability_of_guessing() const noexcept { return others_.weight_of_guessing(); }
   /// See NonLearners::odds_of_learning(); people with a misconception learn.
   [[nodiscard]] double odds_of_learning() const noexcept { return others_.odds_of_learning(probability_of_learning()); }
+  /// How many times as probable the answers are from people who learn than from those of them who guess the answers of
+  /// every other period: the product of 2 L / (L + G) over periods and boards, with the probabilities L and G of the
+  /// answers from people who learn and who guess. Of the latter a share of 1 / r reaches r (Ville's inequality).
+  [[nodiscard]] double odds_against_halves() const noexcept { return odds_against_halves_; }
+  /// Boards of an exam so far.
+  [[nodiscard]] std::size_t num_boards() const noexcept { return num_boards_; }
   /// How many times as probable the answers are from people who learn everything than from anybody who stopped,
   /// whenever, under whichever hypothesis, as far as whoever stopped satisfies the half-spaces less surely:
   ///
@@ -96,6 +112,8 @@ class MisconceptionBank {
   [[nodiscard]] std::vector<std::vector<WeightedShare>> shares_after(double angle,
                                                                      std::span<const std::vector<HalfSpace>> lists,
                                                                      const RandomStream& random) const;
+  /// Everybody whom the person may be with a probability of at least `least`; valid until the next lesson is observed.
+  [[nodiscard]] std::vector<PossiblePerson> possible_people(double least) const;
   /// At most n weights of length 1, shape [d], from which the person would answer if this constraint is violated: drawn
   /// systematically, by probability. None if no belief violates it.
   [[nodiscard]] std::vector<Direction> violators(const HalfSpace& constraint, std::size_t n) const;
@@ -112,7 +130,7 @@ class MisconceptionBank {
   };
   [[nodiscard]] bool learns(const People& people) const { return people.state == 0 && people.periods == kGoesOn; }
   [[nodiscard]] KnownBelief& belief(const People& people) const;
-  void weigh(const Atlas& atlas, const AnswerFit& fit);
+  void weigh(const Atlas& atlas, const AnswerFit& fit, bool is_exam);
   void let_some_stop();
   void mend();
 
@@ -122,7 +140,8 @@ class MisconceptionBank {
   std::shared_ptr<LessonBeliefs> beliefs_;
   std::vector<People> people_;  // those who learn first, by hypothesis
   NonLearners others_;
-  std::size_t num_periods_ = 0, num_tests_ = 0, num_right_ = 0;  // so far
+  double odds_against_halves_ = 1.0;
+  std::size_t num_periods_ = 0, num_tests_ = 0, num_right_ = 0, num_boards_ = 0;  // so far
 };
 
 }  // namespace kith

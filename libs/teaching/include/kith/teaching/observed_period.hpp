@@ -19,8 +19,16 @@ struct ObservedPeriod {
   bool all_correct = false;         ///< In the end, where answers were discussed.
   bool discussed = false;           ///< Whether the group talked about its answers.
   std::vector<HalfSpace> feedback;  ///< What the feedback taught; empty if the person heard none.
+  /// A board of an exam, after all lessons: one test, which teaches nothing. `component` means nothing.
+  bool is_exam = false;
   friend bool operator==(const ObservedPeriod&, const ObservedPeriod&) = default;
 };
+
+/// What an answer shows, as Session judges it. @pre the answer is not better than the robot's path.
+[[nodiscard]] Verdict verdict_on(const Atlas& atlas, const Test& test, const Answer& answer);
+
+/// A board of an exam and its answer. @param period  its number.
+[[nodiscard]] ObservedPeriod exam_board(const Atlas& atlas, StartIndex start, const Answer& answer, std::size_t period);
 
 /// What a member of a session took part in. Periods in which the member was away are left out.
 [[nodiscard]] std::vector<ObservedPeriod> observed_periods(const PastPeriods& history, std::size_t member);
