@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,17 +12,20 @@
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/parallel.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
 #include "kith/present/audit_people.hpp"
+#include "kith/present/exam_rehearsal.hpp"
 #include "kith/present/wrapped.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "kith/store/event_file.hpp"
 #include "kith/store/session_audit.hpp"
+#include "kith/teaching/cache_pool.hpp"
 #include "kith/teaching/kind_of_person.hpp"
 #include "page.hpp"
 #include "progress.hpp"
@@ -33,6 +35,8 @@ namespace {
 
 struct AuditCommandOptions {
   std::string folder;
+  std::string exam;                 ///< Domain of a rehearsal; empty: none.
+  std::size_t people = 100;         ///< Of every kind in a rehearsal.
   std::optional<std::size_t> team;  ///< Number of a team of a run; none: all.
   std::string room;                 ///< Id or code of a room of a live session; empty: all.
   std::string out;                  ///< Where the page goes; "-" is standard output; empty: no page.
@@ -50,29 +54,6 @@ Error refusal(ErrorKind kind, const std::string& id, const std::string& message,
 }
 
 // --- a run ---------------------------------------------------------------------------------------------------------
-
-// Threads take an atlas's cache each, and give it back.
-class Caches {
- public:
-  explicit Caches(const Atlas& atlas) : atlas_{atlas} {}
-  std::unique_ptr<TeachingCache> take() {
-    const std::lock_guard lock{mutex_};
-    if (free_.empty()) return std::make_unique<TeachingCache>(atlas_);
-    auto cache = std::move(free_.back());
-    free_.pop_back();
-    return cache;
-  }
-  void give_back(std::unique_ptr<TeachingCache> cache) {
-    cache->trim();
-    const std::lock_guard lock{mutex_};
-    free_.push_back(std::move(cache));
-  }
-
- private:
-  const Atlas& atlas_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<TeachingCache>> free_;
-};
 
 class RunAudit {
  public:
@@ -94,7 +75,7 @@ class RunAudit {
 
   AuditReport report() {
     std::vector<std::vector<AuditedPerson>> judged(records_.size());
-    Caches caches{*atlas_};
+    CachePool caches{*atlas_};
     watch_signals();
     Progress progress{options_.progress, console_};
     const auto on_progress = [&](std::size_t done, std::size_t total) {
@@ -276,20 +257,74 @@ int show(const Atlas& atlas, const AuditReport& report, const AuditCommandOption
 }
 
 void declare(OptionList& list, AuditCommandOptions& options) {
-  list.text("folder", options.folder, "DIR", "Run folder of a study, or folder of live sessions").required();
-  list.integer("--team", options.team, {1}, "Only this team of a run, as numbered in teams.csv");
-  list.text("--room", options.room, "ID", "Only this room of live sessions, by id or code");
-  list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
-  list.text("--knowing", options.knowing, "DOMAIN",
-            "The robot before an update: who still believes it to be like that?");
+  const auto folder = list.text("folder", options.folder, "DIR", "Run folder of a study, or folder of live sessions");
+  const auto team = list.integer("--team", options.team, {1}, "Only this team of a run, as numbered in teams.csv");
+  const auto room = list.text("--room", options.room, "ID", "Only this room of live sessions, by id or code");
+  const auto out =
+      list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
+  const auto knowing = list.text("--knowing", options.knowing, "DOMAIN",
+                                 "The robot before an update: who still believes it to be like that?");
   list.number("--forgetting", options.forgetting, "ANGLE", {0.0, kLargestNumber},
               "Radians by which beliefs blur in a period without lessons; 0: people forget nothing");
+  list.text("--exam", options.exam, "DOMAIN", "Rehearse an exam with simulated people instead; a name or a file")
+      .excludes(folder)
+      .excludes(team)
+      .excludes(room)
+      .excludes(out)
+      .excludes(knowing);
+  list.integer("--people", options.people, {1, 100'000}, "With --exam: people of every kind");
   list.threads(options.threads);
   list.progress(options.progress);
   list.json();
 }
 
+std::string share_in_words(std::size_t part, std::size_t all) {
+  return all == 0 ? "-" : percent(static_cast<double>(part) / static_cast<double>(all));
+}
+
+// What an exam of people finds out who were taught by simulated lessons.
+int rehearse(const AuditCommandOptions& options, Console& console) {
+  const Atlas atlas{load_domain(options.exam)};
+  require_something_to_teach(atlas);
+  auto study = study_of("paper", {}).study->variants.front();
+  take_domain(study, atlas.domain());
+  watch_signals();
+  Progress progress{options.progress, console};
+  const auto on_progress = [&](std::size_t done, std::size_t total) {
+    progress.update(done, total, 0);
+    return stop_signal() == 0;
+  };
+  const auto kinds =
+      rehearse_exam(atlas, study, {.people = options.people, .threads = options.threads, .on_progress = on_progress});
+  progress.finish();
+  if (kinds.empty()) throw Error{ErrorKind::kPartial, "interrupted; nothing was written"};
+  const auto text = [&] {
+    const auto& taught = kinds.front();
+    TextTable found{"rr"};
+    found.add({"boards", "understood and found"});
+    for (std::size_t i = 0; i < kExamLengths.size(); ++i) {
+      found.add({std::to_string(kExamLengths[i]), share_in_words(taught.findings[i].rightly, taught.understood)});
+    }
+    TextTable table{"lrrrrr"};
+    table.add({"people", "of them", "rather wrong", "yet found", "found, right < 80 %", "boards"});
+    for (const auto& kind : kinds) {
+      table.add({kind.kind, std::to_string(kind.people), std::to_string(kind.mistaken),
+                 std::to_string(kind.findings.back().wrongly), std::to_string(kind.findings.back().nearly),
+                 fmt::format("{:.1f}", static_cast<double>(kind.boards) / static_cast<double>(kind.people))});
+    }
+    return "People who learn as assumed, after an exam of at most so many boards\n" + found.text(console) +
+           "\nAll kinds of people, at the end of the exam: who rather gets some component wrong, and who is yet said "
+           "to "
+           "understand it\n" +
+           table.text(console);
+  };
+  console.print([&] { return rehearsal_json(atlas, kinds, program_name()); }, text);
+  return 0;
+}
+
 int run(const AuditCommandOptions& options, Console& console) {
+  if (!options.exam.empty()) return rehearse(options, console);
+  if (options.folder.empty()) refuse("kith audit needs the folder of a study or of live sessions, or --exam DOMAIN");
   const fs::path folder{options.folder};
   std::error_code none;
   if (fs::exists(folder / kEventFile, none)) {
@@ -318,10 +353,11 @@ int run(const AuditCommandOptions& options, Console& console) {
 }  // namespace
 
 void add_audit(Commands& commands) {
-  commands.add<AuditCommandOptions>("audit", "Judge from people's answers who understands what",
-                                    {"kith audit results/paper", "kith audit results/paper --team 17",
-                                     "kith audit results/live --room r3 -o audit.html"},
-                                    declare, run);
+  commands.add<AuditCommandOptions>(
+      "audit", "Judge from people's answers who understands what",
+      {"kith audit results/paper", "kith audit results/paper --team 17",
+       "kith audit results/live --room r3 -o audit.html", "kith audit --exam item-delivery"},
+      declare, run);
 }
 
 }  // namespace kith::cli

@@ -147,5 +147,21 @@ TEST_F(AuditCommand, ReadsLiveSessions) {
   EXPECT_EQ(none.code, 3);
 }
 
+TEST(ExamCommand, RehearsesAnExamOnAnyNumberOfThreads) {
+  const auto one = run_kith({"audit", "--exam", "item-delivery", "--people", "1", "--json", "-j", "1"});
+  const auto two = run_kith({"audit", "--exam", "item-delivery", "--people", "1", "--json", "-j", "2"});
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(one.out, two.out);
+  const auto document = Json::parse(one.out);
+  EXPECT_EQ(document.at("schema"), "kith.exam-rehearsal/1");
+  EXPECT_EQ(document.at("boards"), Json({0, 2, 4, 8, 12}));
+  EXPECT_EQ(document.at("kinds").size(), 17u);
+}
+
+TEST(ExamCommand, NeedsAFolderOrADomain) {
+  EXPECT_EQ(run_kith({"audit"}).code, 2);
+  EXPECT_EQ(run_kith({"audit", "results", "--exam", "item-delivery"}).code, 2);
+}
+
 }  // namespace
 }  // namespace kith::testing
