@@ -31,6 +31,7 @@ struct LessonOptions {
   std::vector<std::string> set;
   std::vector<std::string> origins;
   bool is_playground = false;
+  bool has_exam = false;
 };
 
 // What cannot be read is no study; whoever reads it as a domain says what is wrong.
@@ -53,7 +54,8 @@ const std::vector<std::string> kCrew{
     R"(learner.P={ label = "somebody with experience", ability = { mean = 0.809, sd = 0.025 }, )"
     R"(confirm_gain = { half_normal = 0.022 }, correct_gain = { half_normal = 0.052 } })"};
 
-StudyReading reading_of(const LessonOptions& options) {
+StudyReading reading_of(LessonOptions options) {
+  if (options.has_exam) options.set.emplace_back("group.exam=true");
   if (is_study(options.what)) return study_of(options.what, options.set);
   std::string text{detail::kLessonStudy};
   const std::string place = "\"DOMAIN\"";
@@ -115,6 +117,7 @@ void declare(OptionList& list, LessonOptions& options) {
   list.json();
   list.flag("--playground", options.is_playground,
             "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
+  list.flag("--exam", options.has_exam, "An exam at the end, as group.exam of a study");
   list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "exploration.hpp"
+#include "kith/explain/examination.hpp"
 #include "kith/explain/runs.hpp"
 #include "kith/present/board_json.hpp"
 #include "kith/present/curriculum_json.hpp"
@@ -141,6 +142,8 @@ class ParticipantPage {
     } else if (stage == "screening") {
       view["predict"] =
           task(room_.study.screening[seat_.screened.size()], seat_.screened.size(), room_.study.screening.size(), {});
+    } else if (stage == kExamPage) {
+      view["predict"] = task(*seat_.examined, seat_.exam.size(), Examination::kMostBoards, {});
     } else if (stage == "lobby") {
       view["lobby"] = lobby();
     } else if (stage == "wait") {

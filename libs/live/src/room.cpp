@@ -107,6 +107,11 @@ bool is_erased_deed(const RoomParts& room, const LiveSeat& person, const RoomEve
     return screened->actions.empty() && person.readiness == Readiness::kScreening &&
            screened->test == person.screened.size();
   }
+  if (const auto* examined = event.get<happening::Examined>()) {
+    const bool is_start = examined->start < room.study.atlas->num_states();
+    return examined->actions.empty() && is_start && room.state.phase == RoomPhase::kQuestions &&
+           examined->test == person.exam.size();
+  }
   if (const auto* draft = event.get<happening::Drafted>()) {
     return draft->actions.empty() && room.state.phase == RoomPhase::kTesting && person.in_period;
   }
@@ -174,7 +179,12 @@ const Session& Room::session() const noexcept {
 
 void Room::release() {
   const bool is_over = state_->phase == RoomPhase::kQuestions || state_->phase == RoomPhase::kEnded;
-  if (is_over && holds_session()) {
+  const bool is_examining =
+      state_->phase == RoomPhase::kQuestions &&
+      std::any_of(state_->seats.begin(), state_->seats.end(), [](const LiveSeat& seat) {
+        return seat.examined && (seat.status == SeatStatus::kActive || seat.status == SeatStatus::kDropped);
+      });
+  if (is_over && !is_examining && holds_session()) {
     state_ = std::make_shared<const State>(released_state({*study_, *setup_, *state_}));
   }
 }
@@ -183,12 +193,15 @@ std::size_t Room::num_seats() const noexcept { return state_->seats.size(); }
 
 RoomStage Room::stage() const noexcept {
   if (state_->phase != RoomPhase::kQuestions) return rules_of(state_->phase).stage;
-  const bool all = study_->group().questions.empty() ||
-                   std::all_of(state_->seats.begin(), state_->seats.end(), [](const LiveSeat& seat) {
-                     return !seat.is_person || seat.status != SeatStatus::kActive || seat.has_answered_questions;
-                   });
+  const bool has_questions = !study_->group().questions.empty();
+  const bool all = std::all_of(state_->seats.begin(), state_->seats.end(), [&](const LiveSeat& seat) {
+    return !seat.is_person || seat.status != SeatStatus::kActive ||
+           (!seat.examined && (!has_questions || seat.has_answered_questions));
+  });
   return all ? RoomStage::kEnded : RoomStage::kQuestions;
 }
+
+const std::vector<ObservedPeriod>& Room::exam_of(std::size_t seat) const { return state_->seats.at(seat - 1).exam; }
 
 bool Room::is_person(std::size_t seat) const { return state_->seats.at(seat - 1).is_person; }
 

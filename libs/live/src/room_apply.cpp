@@ -3,6 +3,7 @@
 
 #include "exploration.hpp"
 #include "room_stepper.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 
@@ -170,6 +171,14 @@ class RoomChange {
     }
     person.exploration = std::make_shared<const Json>(std::move(found.shown));
     ++person.explorations;
+  }
+  void happen(const Examined& e) {
+    auto& person = who();
+    const StartIndex start{e.start};
+    const auto judged = judged_path(*study_.atlas, start, e.actions, e.for_ever);
+    person.exam.push_back(exam_board(*study_.atlas, start, judged.counts, num_periods(state_) + e.test + 1));
+    person.since_us = event_.at_us;
+    step_.examine(actor());
   }
   void happen(const QuestionsAnswered&) {
     who().has_answered_questions = true;

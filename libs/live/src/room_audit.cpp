@@ -1,8 +1,10 @@
 #include "kith/live/room_audit.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "kith/explain/curriculum.hpp"
+#include "kith/explain/examination.hpp"
 #include "kith/present/audit_people.hpp"
 
 namespace kith {
@@ -28,11 +30,15 @@ Json person_json(const Atlas& atlas, const AuditedPerson& person) {
             {"knows", *audit.knowledge()},
             {"components", Json::array()}};
   for (const auto& one : audit.components) {
-    json["components"].push_back({{"name", component_in_words(atlas, one.component)},
-                                  {"understanding", name_of(one.understanding)},
-                                  {"verdict", verdict_in_words(one)},
-                                  {"level", one.periods == 0 ? Json{} : Json(one.level.mean)}});
+    json["components"].push_back(
+        {{"name", component_in_words(atlas, one.component)},
+         {"understanding", name_of(one.understanding)},
+         {"verdict", verdict_in_words(one)},
+         {"level", one.understanding == Understanding::kNotTaught ? Json{} : Json(one.level.mean)}});
   }
+  std::size_t boards = 0;
+  for (const auto& one : audit.components) boards = std::max(boards, one.examined);
+  if (boards > 0) json["exam"] = name_of(exam_result(audit));
   const auto need = person.simulated ? std::string{} : need_in_words(audit);
   if (!need.empty()) json["needs_help"] = need;
   if (const auto* misconception = likeliest(audit)) {

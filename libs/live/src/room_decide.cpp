@@ -84,9 +84,27 @@ class SeatDecider {
     const auto demo = room_.study.screening[number];
     const auto judged = judged_path(atlas, demo, *actions, *for_ever);
     if (!judged.is_legal) return illegal(judged);
-    const bool is_right =
-        judged.counts && judge_path(atlas.domain(), atlas.feature_counts(demo), *judged.counts).is_right;
-    return accepted(Screened{number, *actions, is_right, *ms, *for_ever});
+    return accepted(Screened{number, *actions, is_right(demo, judged), *ms, *for_ever});
+  }
+
+  [[nodiscard]] Decision ask(OfKind<Examined>) const {
+    const auto test = integer_in(command_.body, "test", 0, 1000);
+    const auto actions = actions_in(command_.body);
+    const auto for_ever = flag_in(command_.body, "for_ever");
+    const auto ms = integer_in(command_.body, "ms", 0, kMostMillis);
+    if (!test || !actions || !for_ever || !ms) return bad_body();
+    const auto number = static_cast<std::size_t>(*test);
+    if (number < seat_.exam.size()) return nothing_to_do();
+    if (state_.phase != RoomPhase::kQuestions || !seat_.examined || number != seat_.exam.size()) return not_now();
+    const auto judged = judged_path(*room_.study.atlas, *seat_.examined, *actions, *for_ever);
+    if (!judged.is_legal) return illegal(judged);
+    return accepted(
+        Examined{number, seat_.examined->value(), *actions, is_right(*seat_.examined, judged), *ms, *for_ever});
+  }
+
+  [[nodiscard]] bool is_right(StartIndex demo, const JudgedPath& judged) const {
+    const auto& atlas = *room_.study.atlas;
+    return judged.counts && judge_path(atlas.domain(), atlas.feature_counts(demo), *judged.counts).is_right;
   }
 
   [[nodiscard]] Decision illegal(const JudgedPath& judged) const {
@@ -209,7 +227,7 @@ class SeatDecider {
   }
 
   [[nodiscard]] Decision ask(OfKind<QuestionsAnswered>) const {
-    if (state_.phase != RoomPhase::kQuestions || !seat_.member) return not_now();
+    if (state_.phase != RoomPhase::kQuestions || !seat_.member || seat_.examined) return not_now();
     if (seat_.has_answered_questions || room_.study.group().questions.empty()) return nothing_to_do();
     const auto given = command_.body.find("answers");
     if (given == command_.body.end() || !given->is_object()) return bad_body();

@@ -29,6 +29,7 @@ std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
   if (seat.readiness == Readiness::kCheck) return "check";
   if (seat.readiness == Readiness::kScreening) return "screening";
   if (room.state.phase == RoomPhase::kLobby || !seat.member) return "lobby";
+  if (room.state.phase == RoomPhase::kQuestions && seat.examined) return std::string{kExamPage};
   if (room.state.phase == RoomPhase::kQuestions || room.state.phase == RoomPhase::kEnded) {
     return room.study.group().questions.empty() || seat.has_answered_questions ? "debrief" : "questions";
   }

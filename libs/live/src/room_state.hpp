@@ -12,6 +12,7 @@
 #include "kith/geometry/half_space.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
+#include "kith/teaching/observed_period.hpp"
 
 namespace kith {
 
@@ -80,6 +81,8 @@ struct LiveSeat {
   std::vector<HalfSpace> explored;  ///< What all explorations conveyed, each once.
   std::size_t explorations = 0;
 
+  std::vector<ObservedPeriod> exam;    ///< Boards that were answered.
+  std::optional<StartIndex> examined;  ///< The board that is asked now; none: no exam, or it is over.
   bool has_answered_questions = false;
   std::size_t right = 0;
   std::size_t tests = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "kith/explain/examination.hpp"
+#include "kith/present/audit_people.hpp"
 #include "kith/study/team_streams.hpp"
 
 namespace kith {
@@ -67,7 +69,8 @@ void RoomStepper::end(const std::string& reason, const std::string& text) {
   for (std::size_t i = 0; i < state_.seats.size(); ++i) {
     auto& seat = state_.seats[i];
     if (!seat.is_person || seat.status == SeatStatus::kEmpty || seat.status == SeatStatus::kGone) continue;
-    if (state_.phase == RoomPhase::kQuestions && (seat.has_answered_questions || study_.group().questions.empty()))
+    if (state_.phase == RoomPhase::kQuestions && !seat.examined &&
+        (seat.has_answered_questions || study_.group().questions.empty()))
       continue;  // they have finished
     const bool is_reserve = taught && !seat.member;
     const bool was_ready = seat.readiness == Readiness::kReady;
@@ -89,8 +92,29 @@ void RoomStepper::begin_questions(const std::string& reason) {
     if (seat.is_person && seat.status == SeatStatus::kActive && !seat.member) {
       dismiss(i, "full", "not-needed", study_.group().completion.pay_full);
     }
+    if (study_.group().exam && seat.is_person) examine(i);
   }
   begin_phase(RoomPhase::kQuestions);
+}
+
+// By what this person saw and answered, not those who had the place before.
+void RoomStepper::examine(std::size_t seat) {
+  auto& who = state_.seats[seat];
+  who.examined.reset();
+  const bool takes_part = who.status == SeatStatus::kActive || who.status == SeatStatus::kDropped;
+  if (!takes_part || !who.member || !state_.session) return;
+  auto periods = observed_periods(state_.session->history(), *who.member);
+  std::erase_if(periods, [&](const ObservedPeriod& period) {
+    return std::none_of(state_.answers.begin(), state_.answers.end(), [&](const LiveAnswer& answer) {
+      return answer.seat == seat && answer.period == period.period;
+    });
+  });
+  if (periods.empty()) return;
+  periods.insert(periods.end(), who.exam.begin(), who.exam.end());
+  const auto random = RandomStream{1}.split("exam").split(setup_.id).split(seat);
+  const auto is_answerable = [&](StartIndex start) { return answerable_path(*study_.atlas, start).has_value(); };
+  who.examined =
+      Examination{cache_, audit_options(study_.spec.teaching, 0.0), std::move(periods), random, is_answerable}.next();
 }
 
 // --- steps of the group --------------------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ class RoomStepper {
   void finish_phase(std::size_t seat);                           ///< The time of the phase is over for a seat.
   void give_answers(std::size_t seat);                           ///< All tests, or those that were answered in time.
   void begin_questions(const std::string& reason);               ///< Teaching is over.
+  void examine(std::size_t seat);                                ///< The next board of the exam, if there is one.
   void end(const std::string& reason, const std::string& text);  ///< Early, for everybody.
 
   /// A seat leaves its place for good. @param page  what they see from now on.

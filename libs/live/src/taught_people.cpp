@@ -36,6 +36,10 @@ std::vector<TaughtPerson> TaughtPeople::all(const Room& room) const {
     }
     if (const auto seat = room.seat_of(member)) person_in(*seat);
   }
+  for (auto& person : people) {
+    const auto& boards = room.exam_of(person.seat);
+    if (!person.periods.empty()) person.periods.insert(person.periods.end(), boards.begin(), boards.end());
+  }
   return people;
 }
 

@@ -86,6 +86,7 @@ std::optional<BotAct> act_for(const Json& view) try {
   }
   if (stage == "check") return BotAct{.type = "checked", .body = Json::object(), .key = stage, .pace = 0.2};
   if (stage == "screening") return path_for(view.at("predict"), "screen", period);
+  if (stage == kExamPage) return path_for(view.at("predict"), "examine", period);
   const auto phase = phase_of_page(stage);
   if (!phase) return std::nullopt;
   switch (*phase) {

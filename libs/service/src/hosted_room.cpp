@@ -256,6 +256,12 @@ void HostedRoom::release(Room& room, const TaughtPeople& taught, std::vector<Tau
   if (!room.holds_session() && before.holds_session() && taught.num_periods() > 0) observed = taught.all(before);
 }
 
+std::size_t HostedRoom::num_observed() const {
+  auto sum = taught_.num_periods();
+  for (std::size_t seat = 1; room_ && seat <= room_->num_seats(); ++seat) sum += room_->exam_of(seat).size();
+  return sum;
+}
+
 // A room whose group is not taught any more stays for its pages; what only teaching needs does not.
 void HostedRoom::release() {
   if (!room_->holds_session()) return;

@@ -100,7 +100,8 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   [[nodiscard]] std::vector<TaughtPerson> observed() const {
     return room_->holds_session() ? taught_.all(*room_) : observed_;
   }
-  [[nodiscard]] std::size_t num_periods() const noexcept { return taught_.num_periods(); }
+  // How much there is to judge people by: periods, and boards of exams.
+  [[nodiscard]] std::size_t num_observed() const;
   // The time of what happens now: never before that of the last event.
   [[nodiscard]] std::int64_t now() const;
   // Something may be due by the clock, or could not be saved and is to be tried again.

@@ -92,7 +92,7 @@ void LiveService::State::take_picture(HostedRoom& hosted) {
     const bool is_of_interest = is_selected || (picture.row && has_many_wrong(*picture.row));
     const auto known = audits.find(hosted.number());
     const auto judged = known == audits.end() ? std::size_t{0} : known->second.periods;
-    if (is_of_interest && hosted.num_periods() > judged) to_audit.insert(hosted.number());
+    if (is_of_interest && hosted.num_observed() > judged) to_audit.insert(hosted.number());
     pictures[hosted.number()] = std::move(picture);
     has_news = true;
   }
@@ -114,7 +114,7 @@ void LiveService::State::audit_next() {
     is_auditing = true;
   }
   post(hosted->number(), [this, hosted](TeachingCache&) {
-    RoomAudit audit{.periods = hosted->num_periods(), .people = nullptr};
+    RoomAudit audit{.periods = hosted->num_observed(), .people = nullptr};
     if (hosted->room() == nullptr) {
       is_auditing = false;
       return;

@@ -1,6 +1,12 @@
+#include <fmt/chrono.h>
+
 #include <algorithm>
+#include <ctime>
 
 #include "kith/domains/file_units.hpp"
+#include "kith/explain/examination.hpp"
+#include "kith/files/sha256.hpp"
+#include "kith/present/audit_people.hpp"
 #include "kith/present/json.hpp"
 #include "room_export.hpp"
 
@@ -42,6 +48,39 @@ struct AnswerTables : RoomExport {
       }
       write.add(tables.tests, row);
       if (answer != nullptr) write_keys(*answer);
+    }
+  }
+
+  void write_exams() const {
+    const auto judge = audit_options(study.spec.teaching, 0.0);
+    const auto robot = sha256(study.domain_text);
+    for (const auto& one : audits) {
+      const auto found = history.seats.find(one.seat);
+      if (found == history.seats.end() || found->second.examined.empty()) continue;
+      const auto& boards = found->second.examined;
+      std::string asked, answers;
+      for (const auto& [board, at_us] : boards) {
+        const auto place = study.atlas->id(StartIndex{board.start});
+        asked += fmt::format("{}{}:{}", asked.empty() ? "" : " ", place.mdp.value(), place.start.value());
+        answers += board.right ? "1" : "0";
+      }
+      const auto at_us = boards.back().second;
+      for (const auto& component : one.audit.components) {
+        write.add(tables.exams, {.session = id(),
+                                 .seat = one.seat,
+                                 .member = one.member,
+                                 .type = std::string(1, one.type),
+                                 .role = if_any(learner_type(study.spec, one.type).label),
+                                 .date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time_t{at_us / 1'000'000})),
+                                 .at_ms = ms_of(at_us),
+                                 .robot = robot,
+                                 .component = component.component + 1,
+                                 .boards = boards.size(),
+                                 .asked = asked,
+                                 .answers = answers,
+                                 .result = name_of(exam_result(component, judge)),
+                                 .all = name_of(exam_result(one.audit, judge))});
+      }
     }
   }
 
@@ -167,6 +206,7 @@ std::vector<ExportedAnswer> RoomExport::given_answers() const {
   };
   for (const auto& person : history.people) {
     for (const auto& period : person.periods) {
+      if (period.is_exam) continue;
       for (std::size_t test = 0; test < period.verdicts.size(); ++test) {
         if (is_there(person.seat, period.period, test)) continue;
         rows.push_back({.period = period.period,
@@ -186,6 +226,7 @@ void write_answers(const RoomExport& room) {
   const AnswerTables tables{room};
   tables.write_tests();
   if (room.options.with_discussions) tables.write_discussions();
+  if (room.options.with_exams) tables.write_exams();
   tables.write_questions();
   tables.write_trials();
 }

@@ -139,6 +139,24 @@ void declare(TableOf<DiscussionRow>& table) {
       .column(&R::changed, {"changed", "Whether that is another answer."});
 }
 
+void declare(TableOf<ExamRow>& table) {
+  using R = ExamRow;
+  table.column(&R::session, kSessionWords)
+      .column(&R::seat, identifier(kSeat, "Number of the person in the room, from 1."))
+      .column(&R::member, kMemberWords)
+      .column(&R::type, {kType, "Letter of the learner type of that place."})
+      .column(&R::role, {"role", "What people of this type are called; missing if they have no label."})
+      .column(&R::date, {"date", "Day of the last answer, in UTC."})
+      .column(&R::at_ms, {"at_ms", "When the last answer was saved.", kMilliseconds})
+      .column(&R::robot, {"robot", "SHA-256 of the domain file: which robot this was about."})
+      .column(&R::component, kComponentWords)
+      .column(&R::boards, count("boards", "Boards that were asked in the whole exam."))
+      .column(&R::asked, {"asked", "World and state in which each of them begins, as world:state."})
+      .column(&R::answers, {"answers", "1 for every answer that is as good as the robot's path, else 0."})
+      .column(&R::result, {"result", "understands, does-not-understand or cannot-tell: this component."})
+      .column(&R::all, {"all", "The same of all components together."});
+}
+
 }  // namespace
 
 ExportTables::ExportTables(const SessionExportOptions& options)
@@ -149,6 +167,7 @@ ExportTables::ExportTables(const SessionExportOptions& options)
   declare(periods);
   declare(tests, options);
   declare(discussions);
+  declare(exams);
 
   keys.column(&KeyRow::session, kSessionWords)
       .column(&KeyRow::period, kPeriodWords)
@@ -200,6 +219,7 @@ std::vector<TableDescription> export_tables(const SessionExportOptions& options)
                      all.tests.description(),    all.keys.description(),         all.questions.description(),
                      all.trials.description(),   all.beliefs.description(),      all.events.description()};
   if (options.with_discussions) tables.push_back(all.discussions.description());
+  if (options.with_exams) tables.push_back(all.exams.description());
   return tables;
 }
 

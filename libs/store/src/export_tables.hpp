@@ -96,6 +96,19 @@ struct QuestionRow {
   std::optional<std::string> value{};
 };
 
+// What the exam of a person found out about a component.
+struct ExamRow {
+  std::string session;
+  std::size_t seat, member;
+  std::string type;
+  std::optional<std::string> role{};
+  std::string date;
+  std::int64_t at_ms;
+  std::string robot;
+  std::size_t component, boards;
+  std::string asked, answers, result, all;
+};
+
 struct TrialRow {
   std::string user_id, group, domain, kc_id, interaction_type;
   std::optional<std::string> is_opt_response{};
@@ -126,6 +139,7 @@ struct ExportTables {
   TableOf<TestRow> tests{"tests.csv", "One test of a person or stand-in, answered or not."};
   TableOf<DiscussionRow> discussions{
       "discussions.csv", "One answer before and after the group saw all answers, of people and of stand-ins."};
+  TableOf<ExamRow> exams{"exams.csv", "One component in the exam of one person: what an inspector asks for."};
   TableOf<KeyRow> keys{"keypresses.csv", "One keypress, click or tap of an answer."};
   TableOf<QuestionRow> questions;
   TableOf<TrialRow> trials{"trials.csv",

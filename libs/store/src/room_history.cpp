@@ -64,6 +64,7 @@ class Collector {
   void note(const Drafted&) {}
   void note(const Continued&) {}
   void note(const Explored&) {}
+  void note(const Examined& e) { history_.seats[seat_].examined.push_back({e, at_us_}); }
   void note(const Discussed&) {}
   void note(const Released&) {}
   void note(const Grouped&) {}

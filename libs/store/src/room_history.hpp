@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kith/live/taught_people.hpp"
@@ -32,7 +33,8 @@ struct SeatRow {
   bool simulated = false;
   std::int64_t joined_us = 0;
   std::string consent;
-  std::vector<bool> screened;  // whether each answer to the screening was right
+  std::vector<std::pair<happening::Examined, std::int64_t>> examined;  // with the time in microseconds
+  std::vector<bool> screened;                                          // whether each answer to the screening was right
   std::string name;
   Json query = Json::object();
   Json answers = Json::object();  // to the questions

@@ -43,6 +43,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
                             const SessionExportOptions& options, const ExportSink& sink) {
   auto told = options;
   told.with_discussions = study->group().discussion.choice.is_held();
+  told.with_exams = study->group().exam;
   told.with_world_names = !study->spec.world_names.empty();
   const ExportTables tables{told};
   TableWriters write{told, sink};

@@ -81,6 +81,7 @@ class GroupReader {
     if (auto discussion = group_.table("discussion", Presence::kOptional)) read_discussion(*discussion);
     read_questions();
     if (auto completion = group_.table("completion", Presence::kOptional)) read_completion(*completion);
+    take(options_.exam, group_.boolean("exam", Presence::kOptional));
     take(options_.ask_name, group_.boolean("ask_name", Presence::kOptional));
     read_query_names();
     group_.finish();

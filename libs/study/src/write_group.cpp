@@ -68,6 +68,7 @@ TomlTable group_table(const GroupOptions& group) {
     for (const auto seat : group.people) people.emplace_back(static_cast<std::int64_t>(seat));
     table.add("people", std::move(people));
   }
+  if (group.exam) table.add("exam", true);
   table.add("ask_name", group.ask_name);
   table.texts("collect_query", group.collect_query);
 

@@ -138,6 +138,7 @@ export interface PersonAudit {
   member: number;
   tests: number;
   right: number;
+  exam?: 'understands' | 'does-not-understand' | 'cannot-tell'; // what the exam came to, once it has begun
   knows: number; // how often they are expected to get all of a component right: the mean over those taught
   components: { name: string; understanding: string; verdict: string; level: number | null }[];
   needs_help?: string; // why

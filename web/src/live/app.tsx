@@ -109,7 +109,7 @@ function useLanguage(lang: string | undefined): void {
 // Screens of the same kind are new ones if they show something else.
 function screenKey(view: ParticipantView): string {
   const { stage, progress, watch, predict, discuss, screening, wait } = view;
-  const index = { watch: watch?.index, predict: predict?.index, discuss: discuss?.index, screening: (screening ?? predict)?.index, wait: wait?.for }[stage as 'watch'];
+  const index = { watch: watch?.index, predict: predict?.index, discuss: discuss?.index, screening: (screening ?? predict)?.index, exam: predict?.index, wait: wait?.for }[stage as 'watch'];
   return [stage, progress?.part, progress?.round, index].join('.');
 }
 
@@ -130,13 +130,15 @@ function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
     case 'check':
       return check ? <Check {...props} check={check} /> : null;
     case 'screening':
-      return task ? <Predict {...props} task={task} isScreening /> : null;
+      return task ? <Predict {...props} task={task} kind="screening" /> : null;
     case 'lobby':
       return lobby ? <Lobby {...props} lobby={lobby} /> : null;
     case 'watch':
       return watch ? <Watch {...props} watch={watch} /> : null;
     case 'predict':
-      return predict ? <Predict {...props} task={predict} isScreening={false} /> : null;
+      return predict ? <Predict {...props} task={predict} kind="predict" /> : null;
+    case 'exam':
+      return predict ? <Predict {...props} task={predict} kind="exam" /> : null;
     case 'discuss':
       return discuss ? <Discuss {...props} discuss={discuss} /> : null;
     case 'wait':

@@ -17,6 +17,7 @@ export type Stage =
   | 'discuss'
   | 'wait'
   | 'feedback'
+  | 'exam'
   | 'questions'
   | 'debrief'
   | 'declined'
@@ -109,7 +110,7 @@ export interface ParticipantView {
   progress?: { part: number; parts: number; round: number; most: number; done: number };
   // world and state: the table of moves and the start in it, if people sketch the path first
   watch?: { index: number; of: number; board: PlayBoard; runs?: Runs; world?: string; state?: number } & Path;
-  predict?: Task;
+  predict?: Task; // in the stage exam `of` is how many there are at most
   // what the group predicted for a test, every path once, without names; n: how many predicted it
   discuss?: { index: number; of: number; board: PlayBoard; predictions: ({ own: boolean; n: number } & Path)[] };
   wait?: {
@@ -135,6 +136,7 @@ export interface Commands {
   checked: Record<string, never>;
   name: { name: string };
   screen: { test: number; actions: number[]; for_ever?: true; ms: number };
+  examine: { test: number; actions: number[]; for_ever?: true; ms: number };
   watched: { demo: number };
   draft: { test: number; actions: number[] };
   answer: { test: number; actions: number[]; for_ever?: true; keys: KeyPress[]; ms: number };

@@ -141,6 +141,7 @@ function rightText(answers: Answer[], { seat }: SeatRow): string {
 function Thought({ audit }: { audit: PersonAudit | undefined }): JSX.Element {
   const share = (value: number): string => `${Math.round(100 * value)} %`;
   const verdicts = audit?.components.filter(({ level }) => level !== null).map(({ name, verdict, level }) => `${name}: ${verdict}, ${share(level ?? 0)}`);
+  if (audit?.exam) verdicts?.unshift(`Exam: ${audit.exam.replaceAll('-', ' ')}`);
   return (
     <>
       <td class="number" data-tip={verdicts?.join('; ')}>

@@ -14,19 +14,23 @@ import { useWorld } from '../world';
 
 interface Props extends ScreenProps {
   task: Task;
-  isScreening: boolean;
+  kind: keyof typeof kCommands;
 }
 
+// What is sent, by why somebody is asked: before, during or after the lessons.
+const kCommands = { screening: 'screen', predict: 'answer', exam: 'examine' } as const;
+
 export function Predict(props: Props): JSX.Element {
-  const { task, token, isScreening, view } = props;
+  const { task, token, kind, view } = props;
   const { world, hasTrouble } = useWorld(task.world, token);
   const legend = useLegend(task.board.domain);
-  const question = isScreening ? 'screening.question' : task.board.map ? 'predict.question' : 'predict.question_plain';
+  const asked = task.board.map ? 'predict.question' : 'predict.question_plain';
+  const question = { screening: 'screening.question', predict: asked, exam: 'exam.question' } as const;
   return (
     <>
-      <p class="kicker">{t('predict.count', { index: task.index + 1, of: task.of })}</p>
-      <Heading>{t(isScreening ? 'screening.title' : 'predict.title')}</Heading>
-      <p class="lead">{t(question)}</p>
+      <p class="kicker">{t(kind === 'exam' ? 'exam.count' : 'predict.count', { index: task.index + 1, of: task.of })}</p>
+      <Heading>{t(`${kind}.title`)}</Heading>
+      <p class="lead">{t(question[kind])}</p>
       <Job board={task.board} />
       <WorldName board={task.board} />
       {world?.hasChance && <p>{t('predict.chance')}</p>}
@@ -42,7 +46,7 @@ export function Predict(props: Props): JSX.Element {
   );
 }
 
-function Answering({ task, isScreening, view, connection, world, legend }: Props & { world: World; legend: ReturnType<typeof useLegend> }) {
+function Answering({ task, kind, view, connection, world, legend }: Props & { world: World; legend: ReturnType<typeof useLegend> }) {
   const { part = 0, round = 0 } = view.progress ?? {};
   const drive = useDrive({
     world,
@@ -50,9 +54,9 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
     draft: task.draft,
     store: driveStore,
     key: [view.stage, part, round, task.index, task.world, task.start].join('.'),
-    ...(isScreening ? {} : { onDraft: (actions: number[]) => connection.sendDraft({ test: task.index, actions }) }),
+    ...(kind !== 'predict' ? {} : { onDraft: (actions: number[]) => connection.sendDraft({ test: task.index, actions }) }),
   });
-  const type = isScreening ? 'screen' : 'answer';
+  const type = kCommands[kind];
   const [isSubmitted, setSubmitted] = useState(false);
   const { refused } = connection.snapshot();
   useLayoutEffect(() => {
@@ -64,8 +68,8 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
   const submit = (): void => {
     const answer = { test: task.index, actions: drive.actions, ...(isForEver ? { for_ever: true as const } : {}), ms: drive.ms() };
     setSubmitted(true);
-    if (isScreening) connection.send('screen', answer);
-    else connection.send('answer', { ...answer, keys: drive.keys() });
+    if (kind === 'predict') connection.send('answer', { ...answer, keys: drive.keys() });
+    else connection.send(kCommands[kind], answer);
   };
   return (
     <Driver

@@ -12,6 +12,7 @@
 #include "kith/live/room_event.hpp"
 #include "kith/live/room_phase.hpp"
 #include "kith/live/teaching_task.hpp"
+#include "kith/teaching/observed_period.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -104,6 +105,8 @@ class Room {
   void release();
   [[nodiscard]] std::size_t num_seats() const noexcept;
   [[nodiscard]] bool is_person(std::size_t seat) const;
+  /// The boards of an exam that the person of a seat has answered.
+  [[nodiscard]] const std::vector<ObservedPeriod>& exam_of(std::size_t seat) const;
   /// Who has a place of the session, from 0; nothing while nobody does.
   [[nodiscard]] std::optional<std::size_t> seat_of(std::size_t member) const;
   /// Whether somebody could join now.

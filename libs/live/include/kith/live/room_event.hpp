@@ -103,6 +103,19 @@ struct Screened {
                                        "for_ever?", &Screened::for_ever};
 };
 
+/// An answer to board `test` of the exam, which begins in `start` (a StartIndex); it may never end.
+struct Examined {
+  static constexpr RoomEventKind kKind{"examined", "examine", kSeat, kUnlogged, false};
+  std::size_t test = 0, start = 0;
+  std::vector<std::size_t> actions;
+  bool right = false;
+  std::int64_t ms = 0;
+  bool for_ever = false;
+  static constexpr std::tuple kMembers{"test",    &Examined::test,    "start",     &Examined::start,
+                                       "actions", &Examined::actions, "right",     &Examined::right,
+                                       "ms",      &Examined::ms,      "for_ever?", &Examined::for_ever};
+};
+
 /// The lessons begin, by "server" or "facilitator"; whether stand-ins fill the places that are free.
 struct Started {
   static constexpr RoomEventKind kKind{"started", "start", kFacilitator, kLogged};
@@ -382,7 +395,7 @@ using RoomHappening =
                  happening::Released, happening::Grouped, happening::Called, happening::Seated, happening::TimeOver,
                  happening::Paused, happening::Resumed, happening::Extended, happening::MessageSent,
                  happening::Readmitted, happening::Simulated, happening::StrategyNamed, happening::Ended,
-                 happening::Discussed>;
+                 happening::Discussed, happening::Examined>;
 
 /// All rows.
 inline constexpr auto kRoomEventKinds = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {

@@ -58,6 +58,9 @@ struct PhaseRules {
   return {};
 }
 
+/// The page of an exam, which everybody takes alone before the questions.
+inline constexpr std::string_view kExamPage = "exam";
+
 /// The phase in which people have something to do on this page; nothing for pages that belong to no phase, such as
 /// "consent" and "wait".
 [[nodiscard]] constexpr std::optional<RoomPhase> phase_of_page(std::string_view page) noexcept {

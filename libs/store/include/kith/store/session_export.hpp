@@ -22,6 +22,7 @@ struct SessionExportOptions {
   bool with_names = false;             ///< Also names, query parameters and completion codes: what identifies people.
   bool with_text = false;              ///< Also what people wrote in their own words.
   bool with_discussions = false;       ///< Also discussions.csv; export_session() does so where groups talk.
+  bool with_exams = false;             ///< Also exams.csv; export_session() does so where people are examined.
   bool with_world_names = false;       ///< Also names of worlds; export_session() does so where they have any.
 };
 

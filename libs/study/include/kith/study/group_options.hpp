@@ -155,6 +155,7 @@ struct GroupOptions {
   std::string high_types{};
   std::vector<GroupQuestion> questions{};
   GroupCompletion completion{};
+  bool exam = false;  ///< After the lessons everybody is examined, alone; see Examination.
   bool ask_name = false;
   std::vector<std::string> collect_query{};  ///< Query parameters of a recruitment platform that are kept.
   friend bool operator==(const GroupOptions&, const GroupOptions&) = default;
