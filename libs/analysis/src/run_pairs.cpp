@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "kith/analysis/team_difference.hpp"
 #include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/table/column_names.hpp"
@@ -221,46 +222,17 @@ std::optional<Interval> hedges_interval(const MeanDifference& difference, double
   return standardized_interval(test.statistic, test.df.front(), g / test.statistic, confidence);
 }
 
-// The means over strategies that taught the same people together, and what the baseline gave for them.
-std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& teams,
-                                                                const std::vector<double>& values) {
-  struct Block {
-    double together = 0.0;
-    std::size_t strategies = 0;
-    std::optional<double> alone;
-  };
-  std::map<std::string, Block> blocks;
-  for (std::size_t i = 0; i < teams.size(); ++i) {
-    auto& block = blocks[teams.people(i)];
-    if (teams.is_baseline(i)) {
-      block.alone = values[i];
-    } else {
-      block.together += values[i];
-      ++block.strategies;
-    }
-  }
-  std::pair<std::vector<double>, std::vector<double>> pairs;
-  for (const auto& [people, block] : blocks) {
-    if (!block.alone || block.strategies == 0) continue;
-    pairs.first.push_back(block.together / static_cast<double>(block.strategies));
-    pairs.second.push_back(*block.alone);
-  }
-  return pairs;
-}
-
 // What the same people gain by being taught together.
-void add_same_people(const std::vector<double>& together, const std::vector<double>& alone,
-                     const AnalysisOptions& options, Finding& finding) {
-  const double confidence = 1.0 - options.alpha;
-  const auto test = paired_t_test(together, alone, confidence);
+void add_same_people(const TeamDifference& difference, const AnalysisOptions& options, Finding& finding) {
+  const auto& test = difference.test;
   ComparisonFamily family{.kind = ComparisonFamily::Kind::kAlone};
-  family.comparisons.push_back(paired_comparison("together - alone", together.size(), test, confidence));
+  family.comparisons.push_back(paired_comparison("together - alone", difference.n, test, 1.0 - options.alpha));
   if (test) {
-    finding.sentence += fmt::format(
-        ". Within {} of the same people {} ({}).", number_and_noun(together.size(), "group"),
-        test->test.p < options.alpha ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
-                                     : "no difference was found",
-        p_text(test->test.p));
+    finding.sentence += fmt::format(". Within {} of the same people {} ({}).", number_and_noun(difference.n, "group"),
+                                    test->test.p < options.alpha
+                                        ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
+                                        : "no difference was found",
+                                    p_text(test->test.p));
     add_method(finding, {"a paired t test of the same people"});
   } else {
     finding.sentence += ".";
@@ -326,7 +298,11 @@ void add_other_people(const std::vector<double>& group, const std::vector<double
 std::optional<Finding> against_baseline(const RunTeams& teams, const std::string& response,
                                         const std::vector<double>& values, const AnalysisOptions& options) {
   std::vector<double> group, alone;
-  for (std::size_t i = 0; i < teams.size(); ++i) (teams.is_baseline(i) ? alone : group).push_back(values[i]);
+  TeamValues together, apart;  // of the same people
+  for (std::size_t i = 0; i < teams.size(); ++i) {
+    (teams.is_baseline(i) ? alone : group).push_back(values[i]);
+    (teams.is_baseline(i) ? apart : together)[{0, teams.people(i), 0}].push_back(values[i]);
+  }
   if (group.empty() || alone.empty()) return std::nullopt;
   const auto& outcome = outcome_named(response);
   Finding finding{.id = response + "-baseline",
@@ -340,11 +316,10 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
       "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", outcome.name,
       outcome.is_plural ? "were" : "was", formatted(mean(group), Kind::kNumber), number_and_noun(group.size(), "group"),
       formatted(mean(alone), Kind::kNumber), number_and_noun(alone.size(), "group"));
-  const auto [together, apart] = same_people(teams, values);
-  if (together.empty()) {
-    add_other_people(group, alone, options, finding);
+  if (const auto same = difference_of_teams(together, apart, true, 1.0 - options.alpha); same.n > 0) {
+    add_same_people(same, options, finding);
   } else {
-    add_same_people(together, apart, options, finding);
+    add_other_people(group, alone, options, finding);
   }
   return finding;
 }

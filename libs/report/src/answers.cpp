@@ -6,14 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/decimals.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/moments.hpp"
-#include "kith/stats/tests.hpp"
 #include "kith/table/column_names.hpp"
 
 namespace kith::detail {
@@ -96,20 +94,10 @@ std::string not_found(const Answer& answer) {
 
 // The same people taught together, whatever the strategy, and alone, or other people.
 Estimable<MeanDifference> together_against_alone(const FirstScreen& screen, const StudyOutcome& outcome) {
-  if (!screen.paired) return welch_t_test(values_of(screen, outcome, false), values_of(screen, outcome, true));
-  std::map<std::tuple<std::size_t, std::string, std::size_t>, std::pair<Values, Values>> people;
-  for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
-    auto& [together, alone] =
-        people[{series_of(screen, i).variant, composition_of(screen, i), screen.data.teams[i].address.replicate}];
-    (is_alone(screen, i) ? alone : together).push_back(outcome.of(screen.data.teams[i]));
-  }
-  Values together, alone;
-  for (const auto& [key, values] : people) {
-    if (values.first.empty() || values.second.empty()) continue;
-    together.push_back(mean(values.first));
-    alone.push_back(mean(values.second));
-  }
-  return paired_t_test(together, alone);
+  const auto taught = [&](bool alone) {
+    return by_people(screen, outcome, [&](std::size_t i) { return is_alone(screen, i) == alone; });
+  };
+  return difference_of_teams(taught(false), taught(true), screen.paired).test;
 }
 
 // The least and the greatest of the estimated means of a factor's levels.

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
 
+#include "kith/analysis/team_difference.hpp"
 #include "kith/stats/moments.hpp"
-#include "kith/stats/tests.hpp"
 #include "kith/table/column_names.hpp"
 #include "sentences.hpp"
 #include "team_tables.hpp"
@@ -63,9 +62,8 @@ std::vector<StudyOutcome> outcomes_of(const RunData& data) {
   return all;
 }
 
-// The teams with one level of each of two factors, by who is in them and everything else that the study varies.
-using People = std::tuple<std::size_t, std::string, std::size_t>;
-using Teams = std::map<People, std::size_t>;
+// The teams with one level of each of two factors, by who is in them.
+using Teams = std::map<TeamPeople, std::size_t>;
 
 class Matrix {
  public:
@@ -74,7 +72,7 @@ class Matrix {
     for (std::size_t i = 0; i < data.teams.size(); ++i) {
       const auto& address = run.teams[i];
       cells_[rows.level_of_team[i] * columns.levels.size() + columns.level_of_team[i]].emplace(
-          People{address.variant, address.composition, address.replicate}, i);
+          TeamPeople{address.variant, address.composition, address.replicate}, i);
     }
   }
 
@@ -93,7 +91,7 @@ class Matrix {
         if (teams.empty()) continue;  // an incomplete run
         auto cells = Json::array({rows_.levels[row], columns_.levels[column], teams.size()});
         for (std::size_t k = 0; k < outcomes.size(); ++k) {
-          add_interval(cells, values_of(teams, outcomes[k]));
+          add_interval(cells, means_of_people(values_of(teams, outcomes[k])));
           cells.push_back(standings[k][column]);
         }
         table.add(std::move(cells));
@@ -106,9 +104,9 @@ class Matrix {
   [[nodiscard]] const Teams& at(std::size_t row, std::size_t column) const {
     return cells_[row * columns_.levels.size() + column];
   }
-  [[nodiscard]] Values values_of(const Teams& teams, const StudyOutcome& outcome) const {
-    Values values;
-    for (const auto& [people, team] : teams) values.push_back(outcome.of(data_.teams[team]));
+  [[nodiscard]] TeamValues values_of(const Teams& teams, const StudyOutcome& outcome) const {
+    TeamValues values;
+    for (const auto& [people, team] : teams) values[people].push_back(outcome.of(data_.teams[team]));
     return values;
   }
 
@@ -120,7 +118,7 @@ class Matrix {
     for (std::size_t c = 0; c < costs.size(); ++c) {
       if (at(row, c).empty()) continue;
       present.push_back(c);
-      costs[c] = (outcome.less_is_better ? 1.0 : -1.0) * mean(values_of(at(row, c), outcome));
+      costs[c] = (outcome.less_is_better ? 1.0 : -1.0) * mean(means_of_people(values_of(at(row, c), outcome)));
     }
     if (present.empty()) return standings;
     const auto best =
@@ -137,20 +135,9 @@ class Matrix {
 
   // Whether the interval of the difference includes that there is none.
   [[nodiscard]] bool includes_none(const Teams& teams, const Teams& best, const StudyOutcome& outcome) const {
-    const auto difference = columns_.has_own_people ? welch_t_test(values_of(teams, outcome), values_of(best, outcome))
-                                                    : difference_of_pairs(teams, best, outcome);
-    return difference && difference->low <= 0.0 && difference->high >= 0.0;
-  }
-  [[nodiscard]] Estimable<MeanDifference> difference_of_pairs(const Teams& teams, const Teams& best,
-                                                              const StudyOutcome& outcome) const {
-    Values values, others;
-    for (const auto& [people, team] : teams) {
-      const auto other = best.find(people);
-      if (other == best.end()) continue;
-      values.push_back(outcome.of(data_.teams[team]));
-      others.push_back(outcome.of(data_.teams[other->second]));
-    }
-    return paired_t_test(values, others);
+    const auto test =
+        difference_of_teams(values_of(teams, outcome), values_of(best, outcome), !columns_.has_own_people).test;
+    return test && test->low <= 0.0 && test->high >= 0.0;
   }
 
   const RunData& data_;

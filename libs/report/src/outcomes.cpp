@@ -26,6 +26,20 @@ Values values_of(const FirstScreen& screen, const StudyOutcome& outcome, bool al
   return values;
 }
 
+TeamValues by_people(const FirstScreen& screen, const StudyOutcome& outcome,
+                     const std::function<bool(std::size_t)>& is_of) {
+  TeamValues values;
+  for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
+    const double value = outcome.of(screen.data.teams[i]);
+    if (!is_of(i) || !std::isfinite(value)) continue;
+    const auto people = screen.paired ? TeamPeople{series_of(screen, i).variant, composition_of(screen, i),
+                                                   screen.data.teams[i].address.replicate}
+                                      : TeamPeople{0, "", i};
+    values[people].push_back(value);
+  }
+  return values;
+}
+
 bool has_fixed_periods(const FirstScreen& screen) {
   const auto is_fixed = [&](bool alone) {
     const auto periods = values_of(screen, kPeriods, alone);

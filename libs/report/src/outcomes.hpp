@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "first_screen.hpp"
+#include "kith/analysis/team_difference.hpp"
 #include "kith/table/column_names.hpp"
 #include "team_tables.hpp"
 
@@ -34,5 +36,8 @@ inline const StudyOutcome kPersonPeriods{
 
 // The finite values of the teams that were taught together, or alone.
 [[nodiscard]] Values values_of(const FirstScreen& screen, const StudyOutcome& outcome, bool alone);
+// The finite values of some teams. Where a replicate is not the same people everywhere, no two teams are of the same.
+[[nodiscard]] TeamValues by_people(const FirstScreen& screen, const StudyOutcome& outcome,
+                                   const std::function<bool(std::size_t)>& is_of);
 
 }  // namespace kith::detail

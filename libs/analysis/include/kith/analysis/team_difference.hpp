@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "kith/stats/tests.hpp"
+
+namespace kith {
+
+/// Who teams consist of, as a place among the groups of people of a study: setting, composition, replicate.
+using TeamPeople = std::tuple<std::size_t, std::string, std::size_t>;
+/// An outcome of teams by who they consist of, finite; teams of the same people count once, with their mean.
+using TeamValues = std::map<TeamPeople, std::vector<double>>;
+[[nodiscard]] std::vector<double> means_of_people(const TeamValues& values);
+
+/// How much two ways of teaching differ.
+struct TeamDifference {
+  std::size_t n = 0;                 ///< Pairs, or people of the first.
+  std::optional<double> estimate{};  ///< First minus second; missing if one of both has no values.
+  Estimable<MeanDifference> test;    ///< Paired t test, or Welch's.
+};
+/// @param same_people  compare within the people of both; else all of the first with all of the second.
+[[nodiscard]] TeamDifference difference_of_teams(const TeamValues& first, const TeamValues& second, bool same_people,
+                                                 double confidence = 0.95);
+
+}  // namespace kith
