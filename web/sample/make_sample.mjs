@@ -232,6 +232,17 @@ const outcomes = [
   { name: 'Person-periods', digits: 1, of: (t) => (t.strategy === 'baseline' ? 1 : 3) * t.periods, half: 1.2 },
   { name: 'Knowledge at the end', digits: 2, of: (t) => t.knowledge, half: 0.04 },
 ];
+const outcome = (column, name, better, digits, high) => ({
+  column,
+  name,
+  axis: name,
+  better,
+  meaning: '',
+  digits,
+  less_is_better: high === null,
+  of_exam: column.startsWith('exam'),
+  high,
+});
 const against = (factor, first, codes) => ({
   factor,
   against: first,
@@ -440,12 +451,16 @@ const report = {
     parameters: table(['group', 'key', 'value', 'meaning'], parameters),
   },
   ...sampleTexts(),
+  outcomes: [
+    outcome('periods', 'Periods', 'fewer periods', 1, null),
+    outcome('knowledge', 'Knowledge at the end', 'more knowledge', 2, 1),
+  ],
   matrices: [
     {
       factors: ['learner.N.kind', 'strategy'],
       outcomes: [
-        { column: 'exam_regret', name: 'Regret in the exam', digits: 3, less_is_better: true },
-        { column: 'exam_share_right', name: 'Share right in the exam', digits: 2, less_is_better: false },
+        outcome('exam_regret', 'Regret in the exam', 'less regret in the exam', 3, null),
+        outcome('exam_share_right', 'Share right in the exam', 'a larger share right in the exam', 2, 1),
       ],
       table: table(
         [

@@ -7,7 +7,7 @@
 #include "kith/analysis/team_difference.hpp"
 #include "kith/stats/moments.hpp"
 #include "kith/table/column_names.hpp"
-#include "sentences.hpp"
+#include "outcomes.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {
@@ -153,12 +153,7 @@ Json matrices(const RunFiles& run, const RunData& data) {
   const auto outcomes = outcomes_of(data);
   if (outcomes.empty()) return all;
   Json described = Json::array();
-  for (const auto& outcome : outcomes) {
-    described.push_back({{"column", outcome.column},
-                         {"name", capitalised(std::string{outcome.phrase})},
-                         {"digits", outcome.digits},
-                         {"less_is_better", outcome.less_is_better}});
-  }
+  for (const auto& outcome : outcomes) described.push_back(outcome_json(outcome));
 
   const auto factors = factors_of(run);
   for (auto rows = factors.begin(); rows != factors.end(); ++rows) {

@@ -6,8 +6,27 @@
 
 #include "kith/table/column_names.hpp"
 #include "kith/teaching/strategy.hpp"
+#include "sentences.hpp"
 
 namespace kith::detail {
+
+Json outcome_json(const StudyOutcome& outcome) {
+  return {{"column", outcome.column},
+          {"name", capitalised(std::string{outcome.phrase})},
+          {"axis", outcome.stem},
+          {"better", outcome.better},
+          {"meaning", outcome.meaning},
+          {"digits", outcome.digits},
+          {"less_is_better", outcome.less_is_better},
+          {"of_exam", outcome.needs_exam},
+          {"high", number(outcome.high)}};
+}
+
+Json outcomes_json(bool has_exam) {
+  Json list = Json::array();
+  for (const auto* outcome : analysed_outcomes(has_exam, false)) list.push_back(outcome_json(*outcome));
+  return list;
+}
 
 const ReportDesign::Series& series_of(const FirstScreen& screen, std::size_t team) {
   return screen.design.series[screen.design.cells[screen.design.cell_of_team[team]].series];

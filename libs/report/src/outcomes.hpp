@@ -19,6 +19,12 @@ inline const StudyOutcome kPersonPeriods{
     .of = [](const TeamRecord& team) { return static_cast<double>(team.cost.person_periods); },
     .digits = kPeriods.digits};
 
+// What pages say of an outcome: {"column", "name", "axis", "better", "meaning", "digits", "less_is_better", "of_exam",
+// "high"}.
+[[nodiscard]] Json outcome_json(const StudyOutcome& outcome);
+// Of those that are analysed.
+[[nodiscard]] Json outcomes_json(bool has_exam);
+
 // What says how much a team knows.
 [[nodiscard]] StudyOutcome known(const FirstScreen& screen);
 [[nodiscard]] std::vector<StudyOutcome> outcomes_of(const FirstScreen& screen);

@@ -395,6 +395,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
                 {"created", manifest_text(run, "stopped")},
                 {"labels", labels_of(run, design)},
                 {"overview", overview_of(run, design, data, analysis)},
+                {"outcomes", outcomes_json(data.has_exam)},
                 {"notes", notes},
                 {"tables", std::move(tables)},
                 {"findings", Json::parse(findings_json(analysis))},

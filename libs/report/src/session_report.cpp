@@ -476,6 +476,7 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
           {"domain", about(tables, "domain")},
           {"labels", labels_of(tables, design)},
           {"overview", std::move(overview)},
+          {"outcomes", outcomes_json(false)},
           {"notes", notes},
           {"tables", std::move(shown)},
           {"findings", Json::parse(findings_json({.subject = {}, .notes = {}, .findings = findings}))},

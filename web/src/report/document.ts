@@ -63,10 +63,23 @@ export interface Finding {
   tables?: ResultTable[];
 }
 
+// What is measured about a team: a column of the tables of teams and, with _mean, _low and _high, of cells.
+export interface Outcome {
+  column: string;
+  name: string;
+  axis: string;
+  better: string; // what a better way of teaching leads to
+  meaning: string;
+  digits: number;
+  less_is_better: boolean;
+  of_exam: boolean;
+  high: number | null; // null: as large as may be
+}
+
 // Two things that a study varies against each other: a row of the table per combination.
 export interface Matrix {
   factors: [string, string];
-  outcomes: { column: string; name: string; digits: number; less_is_better: boolean }[];
+  outcomes: Outcome[];
   table: Table;
 }
 
@@ -132,6 +145,7 @@ export interface Report {
     leads?: 'exam'; // its figures come first: knowledge says little with more than three features
   };
   notes?: string[];
+  outcomes: Outcome[];
   tables: Record<string, Table | undefined>;
   matrices?: Matrix[];
   findings?: Finding[];

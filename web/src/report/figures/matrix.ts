@@ -1,11 +1,9 @@
 // Two things that a study varies against each other, as a heat map with the values in it.
 import type { Json, Spec } from '../chart';
-import { type Matrix, type Row, num } from '../document';
+import { type Matrix, type Outcome, type Row, num } from '../document';
 import { type Study, rowsOf } from '../study';
 import type { Figure } from './figure';
 import { counted } from './gist';
-
-type Outcome = Matrix['outcomes'][number];
 
 const kLetter = 6.3; // width of a letter of a name, px
 const kLeft = 130; // most room for the names of rows

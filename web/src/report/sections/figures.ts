@@ -9,7 +9,7 @@ import { forecastFigures } from '../figures/forecasts';
 import { frontFigures } from '../figures/front';
 import { interactionFigures } from '../figures/interaction';
 import { matrixFigures } from '../figures/matrix';
-import { examOutcomeFigures, outcomeFigures } from '../figures/outcomes';
+import { outcomeFigures } from '../figures/outcomes';
 import { timeFigures } from '../figures/time';
 import { figureView } from '../figure_view';
 import { spheresFigure } from '../spheres/spheres';
@@ -23,14 +23,14 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
     title: 'Periods and knowledge',
     figures: (study) => [
       ...differencesFigures(study).slice(1),
-      ...outcomeFigures(study),
+      ...outcomeFigures(study, false),
       ...interactionFigures(study),
     ],
   },
   {
     id: 'exam',
     title: 'The exam outside the lessons',
-    figures: (study) => [...examOutcomeFigures(study), ...examCurveFigures(study), ...frontFigures(study)],
+    figures: (study) => [...outcomeFigures(study, true), ...examCurveFigures(study), ...frontFigures(study)],
   },
   { id: 'manipulation', title: 'Manipulation check', figures: areaFigures },
   {

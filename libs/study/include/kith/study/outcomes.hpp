@@ -13,11 +13,12 @@ namespace kith {
 /// What is measured about a team: a column of teams.csv with all that analyses, plans and reports say about it. A new
 /// outcome is one row of the table in outcomes.cpp.
 struct StudyOutcome {
-  std::string_view column{};  ///< "exam_regret"
-  std::string_view name{};    ///< "regret in the exam"; with a capital, the heading of its column.
-  std::string_view phrase{};  ///< The same in sentences about the end of a study: "knowledge at the end".
-  std::string_view better{};  ///< What a better way of teaching leads to: "less regret in the exam".
-  std::string_view stem{};    ///< Of the headings of its statistics: "Regret".
+  std::string_view column{};   ///< "exam_regret"
+  std::string_view name{};     ///< "regret in the exam"; with a capital, the heading of its column.
+  std::string_view phrase{};   ///< The same in sentences about the end of a study: "knowledge at the end".
+  std::string_view better{};   ///< What a better way of teaching leads to: "less regret in the exam".
+  std::string_view stem{};     ///< Of the headings of its statistics: "Regret".
+  std::string_view meaning{};  ///< A sentence, if it needs one.
   double (*of)(const TeamRecord&) = nullptr;  ///< @throws std::invalid_argument for a team that was not examined.
   double low = 0.0;
   double high = std::numeric_limits<double>::infinity();  ///< Infinite: as large as may be.
