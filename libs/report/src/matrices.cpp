@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
+#include <vector>
 
 #include "kith/analysis/team_difference.hpp"
 #include "kith/stats/moments.hpp"
@@ -63,7 +65,7 @@ std::vector<StudyOutcome> outcomes_of(const RunData& data) {
 }
 
 // The teams with one level of each of two factors, by who is in them.
-using Teams = std::map<TeamPeople, std::size_t>;
+using Teams = std::map<TeamPeople, std::vector<std::size_t>>;
 
 class Matrix {
  public:
@@ -71,8 +73,9 @@ class Matrix {
       : data_{data}, rows_{rows}, columns_{columns}, cells_(rows.levels.size() * columns.levels.size()) {
     for (std::size_t i = 0; i < data.teams.size(); ++i) {
       const auto& address = run.teams[i];
-      cells_[rows.level_of_team[i] * columns.levels.size() + columns.level_of_team[i]].emplace(
-          TeamPeople{address.variant, address.composition, address.replicate}, i);
+      cells_[rows.level_of_team[i] * columns.levels.size() + columns.level_of_team[i]]
+            [{address.variant, address.composition, address.replicate}]
+                .push_back(i);
     }
   }
 
@@ -89,7 +92,9 @@ class Matrix {
       for (std::size_t column = 0; column < columns_.levels.size(); ++column) {
         const auto& teams = at(row, column);
         if (teams.empty()) continue;  // an incomplete run
-        auto cells = Json::array({rows_.levels[row], columns_.levels[column], teams.size()});
+        const auto add = [](std::size_t sum, const auto& of_people) { return sum + of_people.second.size(); };
+        auto cells = Json::array({rows_.levels[row], columns_.levels[column],
+                                  std::accumulate(teams.begin(), teams.end(), std::size_t{0}, add)});
         for (std::size_t k = 0; k < outcomes.size(); ++k) {
           add_interval(cells, means_of_people(values_of(teams, outcomes[k])));
           cells.push_back(standings[k][column]);
@@ -106,7 +111,8 @@ class Matrix {
   }
   [[nodiscard]] TeamValues values_of(const Teams& teams, const StudyOutcome& outcome) const {
     TeamValues values;
-    for (const auto& [people, team] : teams) values[people].push_back(outcome.of(data_.teams[team]));
+    for (const auto& [people, all] : teams)
+      for (const auto team : all) values[people].push_back(outcome.of(data_.teams[team]));
     return values;
   }
 

@@ -409,6 +409,25 @@ TEST(Report, SetsStrategiesAgainstAVariedKey) {
   }
 }
 
+// Every team counts, whatever else varies.
+TEST(Report, SetsCompositionsAgainstAVariedKeyOverAllStrategies) {
+  const ScratchFolder scratch;
+  run_tiny_study(scratch / "run",
+                 {"replicates=2", "design.compositions=[\"NN\", \"NP\", \"PP\"]",
+                  "design.strategies=[\"common\", \"joint\"]", "design.vary={\"stop.max_periods\"=[1, 2, 40]}"});
+  const auto document = Json::parse(build_report(scratch / "run"));
+  ASSERT_THAT(document.at("matrices"), SizeIs(1));
+  for (const auto& row : document.at("matrices").at(0).at("table").at("rows")) {
+    const auto setting = " [stop.max_periods=" + row.at(1).get<std::string>() + "]";
+    std::vector<double> knowledge;
+    for (const auto* strategy : {"common", "joint"})
+      for (const auto& team : rows_of(document, "teams", {strategy + setting, row.at(0)}))
+        knowledge.push_back(team.at(5).get<double>());
+    EXPECT_EQ(row.at(2), 4);
+    EXPECT_NEAR(row.at(3).get<double>(), mean(knowledge), kTiny);
+  }
+}
+
 TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
   const ScratchFolder scratch;
   run_tiny_study(scratch / "run",
