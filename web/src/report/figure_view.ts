@@ -34,7 +34,7 @@ export function saveButtons(saves: Saves): HTMLElement {
   };
   const saving = (label: string, ending: string, title: string, name: string, make: () => Promise<Blob>): HTMLElement =>
     button(label, () => void save(name, make), { 'aria-label': title, title, 'data-save': ending });
-  const formats: Format[] = ['svg', 'pdf', 'png'];
+  const formats: Format[] = ['svg', 'png'];
   const pictures = formats.map((format) =>
     saving(format.toUpperCase(), format, `Save ${what} as ${format.toUpperCase()}`, `${file}.${format}`, () =>
       paperFile((pixels) => saves.spec(pixels), Number(width.value), format),

@@ -3,14 +3,13 @@ import { View, parse } from 'vega';
 import { expressionInterpreter } from 'vega-interpreter';
 import { type Spec, toVega } from './chart';
 import { inLight } from '../shared/theme';
-import { PdfContext } from './pdf';
 
 export const kWidths = [89, 183]; // mm, of one column and of two
 const kPointsPerMm = 72 / 25.4;
 const kPointsPerPixel = 0.65; // text of 11 to 12 px has 7.15 to 7.8 points
 const kDpi = 300;
 
-export type Format = 'svg' | 'pdf' | 'png';
+export type Format = 'svg' | 'png';
 
 // A view without a page.
 function lightView(spec: Spec): View {
@@ -52,16 +51,11 @@ export async function paperFile(spec: (width: number) => Spec, mm: number, forma
   const points = mm * kPointsPerMm;
   const view = lightView(spec(Math.floor(points / kPointsPerPixel)));
   const svg = await view.toSVG();
-  const [width = 0, height = 0] = ['width', 'height'].map((name) => Number(new RegExp(`^<svg [^>]*?${name}="([\\d.]+)"`).exec(svg)?.[1]));
+  const width = Number(/^<svg [^>]*?width="([\d.]+)"/.exec(svg)?.[1]);
   // A figure that needs more room than it was given is made smaller.
   const scale = Math.min(kPointsPerPixel, points / width);
   try {
     if (format === 'svg') return svgFile(svg, scale);
-    if (format === 'pdf') {
-      const context = new PdfContext();
-      await view.toCanvas(1, { externalContext: context } as never);
-      return context.file(width * scale, height * scale, scale);
-    }
     const canvas = (await view.toCanvas((scale * kDpi) / 72)) as unknown as HTMLCanvasElement;
     const png = await new Promise<Blob>((resolve, reject) => {
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no PNG'))), 'image/png');
