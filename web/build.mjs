@@ -75,9 +75,18 @@ function fill(template, name, value) {
   return parts[0] + value + parts[1];
 }
 
-// Texts of screens that only live sessions have.
-const kOnlyLive =
-  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|explore|debrief|end|bye|pause|trouble|progress|file|data|door)\./;
+// Texts that only live sessions have.
+const kOnlyLive = new RegExp(
+  [
+    '(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|explore|debrief|end|bye)\\.',
+    '(pause|trouble|progress|file|data|door|stored|discuss|common\\.(?!words)|check\\.(?!end|stopped))',
+    'feedback\\.(?!title|showed|right_other|robot|mine|here)',
+    'watch\\.(count|title|question|sketch_|see|compare|think|finish|done|over|for_ever)',
+    'predict\\.(title|count|question|submit|unfinished|empty|anyway|keep|end|stopped)',
+  ]
+    .map((start) => `^${start}`)
+    .join('|'),
+);
 const kStarting = /^(trouble\.title|file\.(old_browser|broken))$/; // all that is said before a lesson file is unpacked
 const textsThat = (isKept) => ({
   name: 'texts',

@@ -1,6 +1,8 @@
 // Opens a lesson as a reader would and checks what a reader needs.
 //
 //   node tests/lesson_test.mjs TEMPLATE.html --document FILE [--screenshots DIR] [--modules DIR] [--chromium FILE]
+//
+// --picture writes the picture of the README, which is checked otherwise.
 import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -8,6 +10,7 @@ import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { pictureOf } from '../picture.mjs';
 import { fillPage } from '../sample/fill_page.mjs';
 import { launch, openPage, reads, requireFrom } from './browser.mjs';
 import { drawn, endless, hugeLesson, largeLesson, mapless, uncertain } from './lessons.mjs';
@@ -18,6 +21,7 @@ const { values, positionals } = parseArgs({
   options: {
     document: { type: 'string' },
     screenshots: { type: 'string' },
+    picture: { type: 'boolean', default: false },
     modules: { type: 'string', default: join(here, '..') },
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
@@ -38,6 +42,11 @@ function addressOf(name, lesson) {
   writeFileSync(file, fillPage(template, JSON.stringify(lesson)));
   return pathToFileURL(file).href;
 }
+// A part whose boards start in many places.
+const [part] = sample.components;
+const copies = (all, n) => Array.from({ length: n }, (_, i) => ({ ...all[0], world: 1000 + i }));
+const long = { ...sample, components: [part, { ...part, number: 2, demonstrations: copies(part.demonstrations, 11), tests: copies(part.tests, 11) }] };
+const longBoards = part.demonstrations.length + part.tests.length + 22 + sample.fresh.length;
 const pages = {
   sample: addressOf('sample', sample),
   large: addressOf('large', largeLesson()),
@@ -46,6 +55,7 @@ const pages = {
   uncertain: addressOf('uncertain', uncertain()),
   drawn: addressOf('drawn', drawn()),
   endless: addressOf('endless', endless(sample)),
+  long: addressOf('long', long),
 };
 
 let browser;
@@ -68,14 +78,31 @@ async function violations(page) {
     .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
 }
 
-// All examples and answers, without a guess, and the end.
-async function seeAll(page) {
-  for (const name of ['Watch without a guess', 'Show the answer']) {
-    const buttons = page.getByRole('button', { name });
-    for (let n = await buttons.count(); n > 0; n -= 1) await buttons.first().click();
+const kSkip = /^(Watch without a guess|Show the answer)$/;
+const kGoOn = /^(Start|Next: another path|Next board|See what this robot is like|\d+ more boards?)$/;
+const goOn = (page) => page.getByRole('button', { name: kGoOn });
+
+// Every screen of a lesson without a guess, from the introduction to the end.
+async function walk(page, look) {
+  await look('introduction');
+  for (let n = 0; n < 120 && (await goOn(page).count()) + (await page.getByRole('button', { name: kSkip }).count()) > 0; n += 1) {
+    const skip = page.getByRole('button', { name: kSkip });
+    if (await skip.count()) await skip.click();
+    else await goOn(page).click();
+    await look((await page.locator('#end').count()) ? 'end' : (await skip.count()) ? 'asked' : 'seen');
   }
-  await page.getByRole('button', { name: 'Show the robot in one page' }).click();
-  await page.waitForSelector('.portrait');
+}
+
+// To the first board, or to a later one without a guess.
+async function open(page, number = 1) {
+  await page.getByRole('button', { name: 'Start' }).click();
+  for (let i = 1; i < number; i += 1) {
+    await page.getByRole('button', { name: kSkip }).click();
+    await page.getByRole('button', { name: 'Next board' }).click();
+  }
+  const card = page.locator('.card');
+  await card.waitFor();
+  return card;
 }
 
 const kKeys = { up: 'ArrowUp', down: 'ArrowDown', left: 'ArrowLeft', right: 'ArrowRight', pickup: ' ', dropoff: ' ' };
@@ -84,11 +111,17 @@ async function press(page, frames) {
   for (const { action } of frames) if (action) await page.keyboard.press(kKeys[action]);
 }
 
+// A detour at the beginning, which costs two steps.
+async function pressWithDetour(page, test) {
+  const there = test.frames[0].robot[1] === 1 ? 'down' : 'up';
+  await press(page, [{ action: there }, { action: there === 'up' ? 'down' : 'up' }, ...test.frames]);
+}
+
 describe('a lesson', () => {
   before(async () => (browser = await launch(values.modules, values.chromium)));
   after(async () => browser?.close());
 
-  for (const name of Object.keys(pages)) {
+  for (const name of Object.keys(pages).filter((one) => one !== 'long')) {
     for (const [width, dark] of [
       [1280, false],
       [768, true],
@@ -96,94 +129,125 @@ describe('a lesson', () => {
     ]) {
       it(`of ${name} at ${width} px ${dark ? 'dark' : 'light'}: no overflow, no serious axe violation`, async () => {
         await withLesson(name, { width, dark }, async (page) => {
-          if (values.screenshots) {
-            mkdirSync(values.screenshots, { recursive: true });
-            await page.screenshot({ path: join(values.screenshots, `${name}-${width}-closed.png`), fullPage: true });
-          }
-          await seeAll(page);
-          if (values.screenshots) {
-            await page.screenshot({ path: join(values.screenshots, `${name}-${width}.png`), fullPage: true });
-          }
-          assert.deepEqual(await violations(page), []);
-          await page.evaluate(() => document.querySelectorAll('details').forEach((box) => (box.open = true)));
-          const { body, view } = await page.evaluate(() => ({
-            body: document.documentElement.scrollWidth,
-            view: document.documentElement.clientWidth,
-          }));
-          assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
-          const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
-          assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that more than one element has');
-          const alike = await page.$$eval('.legend', (all) =>
-            all.filter((legend) => {
-              const signs = [...legend.querySelectorAll('li svg')].map((svg) => {
-                const id = /url\(#([^)]+)\)/.exec(svg.innerHTML)?.[1];
-                return svg.innerHTML.replace(/url\([^)]+\)/, '') + (id ? document.getElementById(id).innerHTML : '');
-              });
-              return new Set(signs).size !== signs.length;
-            }).length,
-          );
-          assert.equal(alike, 0, 'two things of a legend are drawn alike');
+          const known = new Set();
+          let n = 0;
+          await walk(page, async (what) => {
+            n += 1;
+            if (values.screenshots) {
+              mkdirSync(values.screenshots, { recursive: true });
+              await page.screenshot({ path: join(values.screenshots, `${name}-${width}-${n}-${what}.png`), fullPage: true });
+            }
+            await page.evaluate(() => document.querySelectorAll('details').forEach((box) => (box.open = true)));
+            const { body, view, focus } = await page.evaluate(() => ({
+              body: document.documentElement.scrollWidth,
+              view: document.documentElement.clientWidth,
+              focus: document.activeElement?.tagName,
+            }));
+            assert.ok(body <= view, `${what}: the page is ${body} px wide in a window of ${view} px`);
+            assert.equal(focus, what === 'introduction' ? 'BODY' : 'H2', `the focus, ${what}`);
+            if (!known.has(what)) assert.deepEqual(await violations(page), [], what);
+            known.add(what);
+            const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
+            assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that more than one element has');
+            const alike = await page.$$eval('.legend', (all) =>
+              all.filter((legend) => {
+                const signs = [...legend.querySelectorAll('li svg')].map((svg) => {
+                  const id = /url\(#([^)]+)\)/.exec(svg.innerHTML)?.[1];
+                  return svg.innerHTML.replace(/url\([^)]+\)/, '') + (id ? document.getElementById(id).innerHTML : '');
+                });
+                return new Set(signs).size !== signs.length;
+              }).length,
+            );
+            assert.equal(alike, 0, 'two things of a legend are drawn alike');
+          });
+          assert.ok(known.has('end'), 'the lesson comes to an end');
         });
       });
     }
   }
 
-  it('shows every component, demonstration and test, says every board in words, and gives nothing away', async () => {
+  it('shows one board at a time and each once, says it in words, and gives nothing away', async () => {
     await withLesson('sample', { width: 1280, dark: false }, async (page) => {
-      const count = (selector) => page.$$eval(selector, (all) => all.length);
       const sum = (key) => sample.components.reduce((n, component) => n + component[key].length, 0);
-      assert.equal(await count('section[id^=component-]'), sample.components.length);
-      assert.equal(await count('.demonstration'), sum('demonstrations'));
-      assert.equal(await count('.test'), sum('tests') + sample.fresh.length);
-      assert.equal(await count('.way'), 0, 'a path before anybody has moved');
-      const visible = await page.evaluate(() => document.body.innerText);
-      for (const component of sample.components) {
-        const told = [component.name, ...component.sentences.map(({ text }) => text)];
-        for (const { reason, flip } of component.demonstrations) told.push(reason, ...(flip ? [flip.text] : []));
+      const told = sample.components.flatMap((component) => [
+        component.name,
+        ...component.sentences.map(({ text }) => text),
+        ...component.demonstrations.map(({ reason }) => reason),
+      ]);
+      const seen = new Set();
+      await walk(page, async (what) => {
+        const visible = await page.evaluate(() => document.body.innerText);
+        assert.ok((await page.locator('.card').count()) <= 1);
+        assert.ok(!visible.includes(sample.domain.title) && !(await page.title()).includes(sample.domain.title));
+        assert.doesNotMatch(visible, /\(\d+,\d+\)|\bworld \d|\bMDP\b|half-space|not been taught|% would/i);
+        const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
+        levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
+        const labels = await page.$$eval('.board svg[role=img]', (all) => all.map((svg) => svg.getAttribute('aria-label') ?? ''));
+        assert.ok((labels.length > 0) === (what !== 'introduction') && labels.every((label) => label.length > 20), `labels: ${labels}`);
+        if (what === 'introduction') assert.ok(visible.includes(sample.domain.job));
+        if (what !== 'asked') return;
+        assert.equal(await page.locator('.way').count(), 0, 'a path before anybody has moved');
         for (const text of told) assert.ok(!visible.toLowerCase().includes(text.toLowerCase()), text);
-      }
-      assert.ok(!visible.includes(sample.domain.title) && !(await page.title()).includes(sample.domain.title));
-      assert.ok(visible.includes(sample.domain.job));
-      await seeAll(page);
-      const labels = await page.$$eval('.board svg[role=img]', (all) => all.map((svg) => svg.getAttribute('aria-label') ?? ''));
-      assert.ok(labels.length > 0 && labels.every((label) => label.length > 20), `labels: ${labels}`);
-      const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
-      levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
-      const lost = await page.$$eval('nav a', (all) =>
-        all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)),
-      );
-      assert.deepEqual(lost, []);
-      const opened = await page.evaluate(() => document.body.innerText);
-      assert.doesNotMatch(opened, /\(\d+,\d+\)|\bworld \d|\bMDP\b|half-space|not been taught|% would/i);
+        const board = await page.$eval('.live-board svg', (svg) => svg.innerHTML);
+        assert.ok(!seen.has(board), 'a board that was shown before');
+        seen.add(board);
+      });
+      assert.equal(seen.size, sum('demonstrations') + sum('tests') + sample.fresh.length);
     });
   });
 
-  it('asks for a guess, shows both paths with what each counts, and says why, by keyboard alone', async () => {
+  it('has at most twelve boards, of every part some, and offers the others', async () => {
+    await withLesson('long', { width: 1280, dark: false }, async (page) => {
+      await reads(page.locator('#introduction'), /12 boards/);
+      const parts = new Set();
+      let asked = 0;
+      await walk(page, async (what) => {
+        if (what === 'asked') parts.add(await page.locator('.kicker').textContent());
+        if (what === 'asked') asked += 1;
+        if (what === 'end' && asked === 12) await reads(page.locator('#end'), new RegExp(`${longBoards - 12} more boards`));
+      });
+      assert.equal(asked, longBoards);
+    });
+  });
+
+  it('asks for a guess, shows both paths with what each counts, and says why: by keyboard alone, Enter going on', async () => {
     await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
       const [shown] = sample.components[0].demonstrations;
-      const card = page.locator('.demonstration').first();
-      await card.locator('.drive-area').focus();
+      const card = page.locator('.card');
+      await page.keyboard.press('Enter');
       await press(page, shown.frames.slice(0, 1));
       await press(page, [{ action: { up: 'down', down: 'up', left: 'right', right: 'left' }[shown.frames[0].action] }]);
       await reads(card.locator('.ledger'), /Steps2/);
+      assert.doesNotMatch(await card.locator('.ledger').textContent(), /charger/, 'what is not on the board');
+      await page.keyboard.press('Enter');
+      await reads(card.locator('h2'), /Where will the robot go/); // the path is not whole
       await press(page, shown.frames); // the robot's path after a detour
-      await card.getByRole('button', { name: 'This is my guess' }).press('Enter');
-      await reads(card, /The robot does something else\..*accept 2 more steps for nothing/s);
+      await page.keyboard.press('Enter');
+      await reads(card, /Not quite.*accept 2 more steps for nothing/s);
+      assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Not quite');
       await reads(card.locator('.ledger'), /RobotYou/);
       assert.deepEqual(await card.locator('.chip text').allTextContents(), ['+2 steps']);
       assert.equal(await card.locator('.decisive').count(), 2, 'the fork is marked, and the mark is in the legend');
       assert.equal(await card.locator('.way.own .line').first().count(), 1);
       await reads(card.locator('.player .count'), /^Step (\d+) of \1$/); // nothing moves by itself
-      await reads(card.locator('.bracket'), /crossing rubble costs/i);
+      assert.equal(await card.locator('.bracket').count(), 0, 'one comparison at a time');
       const duration = await page.$eval('.mover', (mover) => getComputedStyle(mover).transitionDuration);
       assert.equal(duration, '0s');
+      await page.keyboard.press('Enter');
+      await reads(card, /Now this one.*crossing rubble costs more than 2 steps/is);
+      await reads(card.locator('.ledger'), /RobotOther/);
+      assert.equal(await card.locator('.way.other, .chip.other').count(), 0, 'the colour of the reader on a path that is not theirs');
+      assert.ok((await card.locator('.bracket').count()) > 0);
+      await page.keyboard.press('Enter');
+      await reads(page.locator('.kicker'), /board 2 of/);
+      assert.deepEqual(await page.$$eval('.track button', (all) => all.slice(0, 3).map(({ className }) => className)), ['', 'done', '']);
     });
   });
 
   it('plays both robots from where they separate, by itself', async () => {
     await withLesson('sample', { width: 1280, dark: false }, async (page) => {
       const [shown] = sample.components[0].demonstrations;
-      const card = page.locator('.demonstration').first();
+      const card = await open(page);
       await card.getByRole('button', { name: 'Watch without a guess' }).click();
       await card.locator('.mover.ghost').waitFor();
       await reads(card.locator('.player .count'), new RegExp(`^Step ${shown.frames.length - 1} of`));
@@ -191,41 +255,65 @@ describe('a lesson', () => {
     });
   });
 
-  it('judges answers to tests, keeps the score of first answers, and ends with the robot in one page', async () => {
+  it('judges answers, counts them, and ends with the robot in one page', async () => {
     await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
-      const tests = sample.components.flatMap((component) => component.tests);
-      for (const [i, test] of tests.entries()) {
-        const card = page.locator('.test').nth(i);
-        await card.locator('.drive-area').focus();
-        if (i === 0) await press(page, [{ action: 'up' }, { action: 'down' }].concat(test.frames[0].robot[1] === 1 ? [{ action: 'down' }, { action: 'up' }] : []));
-        await press(page, test.frames);
-        await card.getByRole('button', { name: 'Submit' }).click();
+      const boards = sample.components.flatMap(({ demonstrations, tests }) => [...demonstrations, ...tests]);
+      await page.keyboard.press('Enter');
+      for (const [i, test] of boards.entries()) {
+        const card = page.locator('.card');
+        await reads(card.locator('.kicker'), new RegExp(`board ${i + 1} of ${boards.length}`));
+        if (i === 0) await pressWithDetour(page, test);
+        else await press(page, test.frames);
+        await page.keyboard.press('Enter');
         await reads(card.locator('.verdict'), i === 0 ? /Not quite/ : /Correct/);
-        const reasons = card.locator('.reasons');
-        if (i === 0) await reads(reasons, /What the robot has shown/);
-        else if (test.is_shortest_wrong) await reads(reasons, /This fits:/);
-        else assert.doesNotMatch(await reasons.textContent(), /This fits/, 'the shortest path tells nothing');
+        if (i === 0) await page.keyboard.press('Enter');
+        else if (test.covers && !test.is_shortest_wrong) assert.doesNotMatch(await card.locator('.reasons').textContent(), /This fits/);
+        await page.keyboard.press('Enter');
       }
-      const again = page.locator('.test').first();
-      await again.getByRole('button', { name: 'Try again' }).click();
-      await again.locator('.drive-area').focus();
-      await press(page, tests[0].frames);
-      await again.getByRole('button', { name: 'Submit' }).click();
-      await reads(again.locator('.verdict'), /Correct/);
-      await reads(page.locator('#end [role=status]').first(), new RegExp(`correctly in ${tests.length - 1} of ${tests.length} tests\\.`));
-      await page.getByRole('button', { name: 'Show the robot in one page' }).click();
+      await reads(page.locator('#end [role=status]').first(), new RegExp(`correctly on ${boards.length - 1} of ${boards.length} boards\\.`));
+      assert.equal(await page.locator('.track .right').count(), boards.length - 1);
       const portrait = page.locator('.portrait');
       for (const fold of await portrait.locator('summary').all()) await fold.click();
       for (const { text } of sample.components.flatMap(({ sentences }) => sentences)) await reads(portrait, new RegExp(text.slice(1)));
       await reads(portrait, /Your first prediction.*Your last prediction/s);
       const lines = await portrait.locator('.lines li').count();
       assert.equal(await portrait.locator('.lines .board').count(), lines, 'a sentence without a board');
-      const robot = sample.fresh[0];
-      const fresh = page.locator('#end .test').first();
-      await fresh.locator('.drive-area').focus();
-      await press(page, robot.frames);
-      await fresh.getByRole('button', { name: 'Submit' }).click();
-      await reads(fresh.locator('.verdict'), /Correct/);
+      await page.keyboard.press('Enter'); // more boards
+      await press(page, sample.fresh[0].frames);
+      await page.keyboard.press('Enter');
+      await reads(page.locator('.verdict'), /Correct/);
+    });
+  });
+
+  it('asks which of two paths it is after the second mistake of a kind, and then to draw again', async () => {
+    await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
+      const boards = sample.components.flatMap(({ demonstrations, tests }) => [...demonstrations, ...tests]);
+      await page.keyboard.press('Enter');
+      const card = page.locator('.card');
+      let answered = 0;
+      for (; answered < 2; answered += 1) {
+        await reads(card.locator('h2'), /Where will the robot go/);
+        await pressWithDetour(page, boards[answered]);
+        for (let i = 0; i < 3; i += 1) await page.keyboard.press('Enter'); // the guess, another path, the next board
+      }
+      await reads(card.locator('h2'), /Which of these two paths/);
+      assert.equal(await card.locator('.choices .way.plain').count(), 2, 'no path is anybody\u2019s yet');
+      await card.getByRole('button', { name: 'Path A' }).click();
+      await reads(card.locator('.verdict'), /Correct|Not quite/);
+      for (let i = 0; i < 2; i += 1) if (/board 3/.test(await card.locator('.kicker').textContent())) await page.keyboard.press('Enter');
+      await reads(card.locator('h2'), /Where will the robot go/);
+    });
+  });
+
+  it('looks as the picture of the README says', async () => {
+    await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
+      await open(page);
+      await press(page, sample.components[0].demonstrations[0].alternative.frames);
+      await page.keyboard.press('Enter');
+      await reads(page.locator('.verdict'), /Not quite/);
+      const file = join(here, '../../docs/pictures/lesson.svg');
+      if (values.picture) writeFileSync(file, await pictureOf(page));
+      assert.equal(await pictureOf(page), readFileSync(file, 'utf8'), 'run this test with --picture');
     });
   });
 
@@ -242,9 +330,27 @@ describe('a lesson', () => {
     });
   });
 
+  for (const [width, height] of [
+    [320, 568],
+    [390, 844],
+  ]) {
+    it(`shows board, pad and guess at ${width} x ${height} without scrolling`, async () => {
+      await withLesson('sample', { width, dark: false, reducedMotion: true }, async (page) => {
+        await page.setViewportSize({ width, height });
+        await open(page);
+        const boxes = await page.$$eval('.live-board .board svg, .pad .arrow, .submit button', (all) => all.map((one) => one.getBoundingClientRect().toJSON()));
+        assert.ok(boxes.length > 6);
+        for (const { top, bottom, left, right } of boxes) assert.ok(top >= 0 && left >= 0 && right <= width && bottom <= height, `${top} to ${bottom}`);
+        await page.getByRole('button', { name: 'Watch without a guess' }).click();
+        const { bottom } = await goOn(page).evaluate((button) => button.getBoundingClientRect());
+        assert.ok(bottom <= height, 'what goes on is out of sight');
+      });
+    });
+  }
+
   it('shows a path that never ends as its way in and its cycle, and says so', async () => {
     await withLesson('endless', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
-      const card = page.locator('.demonstration').first();
+      const card = await open(page);
       await card.getByRole('button', { name: 'Watch without a guess' }).click();
       await card.locator('.way.own .round').waitFor();
       for (let step = 5; step > 1; step -= 1) await card.getByRole('button', { name: 'Previous step' }).click();
@@ -255,8 +361,8 @@ describe('a lesson', () => {
 
   it('lists states and actions where there is no map', async () => {
     await withLesson('mapless', { width: 1280, dark: false }, async (page) => {
+      const example = await open(page);
       assert.equal(await page.locator('.board').count(), 0);
-      const example = page.locator('.demonstration').first();
       await reads(example, /This world: weekday\..*dock/s);
       assert.equal(await page.locator('.step-list').count(), 0, 'listed before the reader has decided');
       await example.getByRole('button', { name: 'Watch without a guess' }).click();
@@ -266,7 +372,7 @@ describe('a lesson', () => {
 
   it('enlarges small cells, and shows the part of the map around the robot', async () => {
     await withLesson('huge', { width: 390, dark: false, reducedMotion: true }, async (page) => {
-      const shown = page.locator('.demonstration');
+      const shown = await open(page);
       await shown.getByRole('button', { name: 'Watch without a guess' }).click();
       await shown.locator('.player').waitFor();
       const look = () =>
@@ -310,13 +416,14 @@ describe('a lesson', () => {
 
   it('shows several runs where chance has a part', async () => {
     await withLesson('uncertain', { width: 1280, dark: false }, async (page) => {
-      const shown = page.locator('.demonstration').first();
+      const shown = await open(page);
       assert.equal(await shown.locator('.runs').count(), 0, 'run before the reader has decided');
       await shown.getByRole('button', { name: 'Watch without a guess' }).click();
       await reads(shown, /Here are 2 of its runs.*Run 1 of 2.*the most common path in 1\./s);
       await shown.locator('.ends').getByRole('button').nth(1).click();
       await reads(shown, /Run 2 of 2/);
-      const test = page.locator('.test').first();
+      await goOn(page).click();
+      const test = page.locator('.test');
       await test.getByRole('button', { name: 'Show the answer' }).click();
       await reads(test, /Run 1 of 2/);
       assert.doesNotMatch(await test.textContent(), /A right answer shows/);
@@ -325,7 +432,7 @@ describe('a lesson', () => {
 
   it('draws walls and what states place, and says where the robot slips', async () => {
     await withLesson('drawn', { width: 390, dark: true }, async (page) => {
-      const shown = page.locator('.demonstration').first();
+      const shown = await open(page);
       await reads(shown, /This world: wet ice\./);
       assert.equal(await shown.locator('.board .destination').count(), 1);
       assert.equal(await shown.locator('.board .fence').getAttribute('d'), 'M80 0v40');

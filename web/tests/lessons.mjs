@@ -78,7 +78,7 @@ export function largeLesson() {
             flip: { ...board, world: 4710, text: 'without the rubble at (7,8) it goes down at (6,8) rather than going right' },
           },
         ],
-        tests: [{ ...board, covers: [sentence] }],
+        tests: [{ ...board, state: 1, covers: [sentence] }],
       },
     ],
     skipped: [],
@@ -98,7 +98,7 @@ export function hugeLesson() {
   Object.assign(lesson.domain, { width: columns, height: rows });
   const [component] = lesson.components;
   component.demonstrations = component.demonstrations.map((shown) => ({ ...shown, ...board, alternative: null, decisive: null, flip: null }));
-  component.tests = component.tests.map((test) => ({ ...test, ...board }));
+  component.tests = component.tests.map((test) => ({ ...test, ...board, state: 1 }));
   return lesson;
 }
 
@@ -128,7 +128,7 @@ export function mapless() {
             flip: null,
           },
         ],
-        tests: [{ ...board, covers: [sentence] }],
+        tests: [{ ...board, state: 1, covers: [sentence] }],
       },
     ],
     skipped: [{ name: 'something', why: 'all of it is known beforehand' }],
@@ -185,7 +185,7 @@ export function drawn() {
     decisive: { frame: 0, cell: [1, 2] },
     runs: { text: 'in 1 run: the same path each time', runs: [{ frames, ended: true }] },
   }));
-  component.tests = component.tests.map((test) => ({ ...test, ...board, runs: component.demonstrations[0].runs }));
+  component.tests = component.tests.map((test) => ({ ...test, ...board, state: 1, runs: component.demonstrations[0].runs }));
   return lesson;
 }
 

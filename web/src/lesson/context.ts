@@ -6,10 +6,9 @@ import { World } from '../shared/play/world';
 import { tableOf, type Domain, type Driven, type Lesson } from './document';
 import { judgeMove, judgePath, type JudgedWorld, type Verdict } from './judge';
 
-export interface Prediction {
-  shown: Driven;
+export interface Guess {
   mine: Path | null; // nothing: the reader wanted to see it at once
-  isRight: boolean;
+  verdict: Verdict | null;
 }
 
 export interface Context {
@@ -17,7 +16,6 @@ export interface Context {
   domain: Domain;
   legend: Legend;
   worlds: Worlds;
-  tell: (key: string, prediction: Prediction) => void;
 }
 
 // Worlds to drive in, made when they are first needed.
@@ -70,6 +68,22 @@ export class Worlds {
       if (state < 0) return false;
     }
     return table.end[state] ?? false;
+  }
+
+  // The robot's path beside one that somebody might take for it, where the two can be told apart.
+  choice(shown: Driven & { runs: unknown; alternative?: Path | null }): [Path, Path] | null {
+    const world = this.world(shown.world);
+    if (!world || shown.runs || shown.repeats_from !== undefined || this.asked(shown) !== 'path') return null;
+    const shortest = world.shortest(shown.state, (state) => world.isEnd(state)) ?? [];
+    const isWrong = shortest.length > 0 && !this.judge(shown, shortest, null).isRight;
+    const other = shown.alternative ?? (isWrong ? { frames: world.frames(world.walk(shown.state, shortest), shortest) } : null);
+    if (!other || other.repeats_from !== undefined || this.judgeFrames(shown, other).isRight) return null;
+    return shown.state % 2 === 0 ? [shown, other] : [other, shown];
+  }
+
+  judgeFrames(shown: Driven, { frames }: Path): Verdict {
+    const actions = frames.slice(0, -1).map((frame) => this.world(shown.world)?.actionOf(frame) ?? -1);
+    return this.judge(shown, actions, null);
   }
 
   // What a reader is asked for: the whole path, or failing that the first move.

@@ -10,23 +10,20 @@ import { Button } from '../shared/play/button';
 import { Pad } from '../shared/play/pad';
 import { StateCard } from '../shared/play/steps';
 import { actionLabel, capitalised, t } from '../shared/texts';
-import { playBoard, type Context } from './context';
+import { SmallBoard } from '../shared/play/small_board';
+import { countsOf, Ledger } from '../shared/play/ledger';
+import { playBoard, type Context, type Guess } from './context';
 import type { Driven } from './document';
-import type { Verdict } from './judge';
-
-export interface Guess {
-  mine: Path | null; // nothing: not asked for
-  verdict: Verdict | null;
-}
 
 interface Props extends Context {
-  shown: Driven;
+  shown: Driven & { runs: unknown; alternative?: Path | null };
+  isChoice: boolean;
   submit: string;
   skip: string;
   onGuess: (guess: Guess) => void;
 }
 
-export function Guessing({ shown, submit, skip, onGuess, domain, legend, worlds }: Props): JSX.Element {
+export function Guessing({ shown, isChoice, submit, skip, onGuess, domain, legend, worlds }: Props): JSX.Element {
   const board = playBoard(domain, shown);
   const asked = worlds.asked(shown);
   const world = asked === 'nothing' ? null : worlds.world(shown.world);
@@ -38,6 +35,8 @@ export function Guessing({ shown, submit, skip, onGuess, domain, legend, worlds 
       </BoardAlone>
     );
   }
+  const paths = isChoice ? worlds.choice(shown) : null;
+  if (paths) return <Choosing {...{ shown, paths, board, legend, worlds, onGuess }} />;
   const View = asked === 'path' ? Driving : Moving;
   return <View {...{ shown, submit, onGuess, domain, legend, worlds, board, world, skipped }} />;
 }
@@ -49,11 +48,32 @@ type DrivingProps = Pick<Props, 'shown' | 'submit' | 'onGuess' | 'legend' | 'wor
 };
 
 // What is to be said to somebody who is about to guess.
-export function askingText({ worlds }: Context, shown: Driven & { runs: unknown }, question: string): string {
+export function askingText({ worlds }: Context, shown: Driven & { runs: unknown }): string {
   const asked = worlds.asked(shown);
-  if (asked === 'path') return shown.runs ? `${question} ${t('predict.chance')}` : question;
+  if (asked === 'path') return shown.map ? 'Where will the robot go?' : 'What will the robot do?';
   if (asked === 'nothing') return 'What will the robot do? Decide first, then look.';
-  return shown.runs ? 'What will the robot try to do first? It does not always end up where it wants to go.' : 'What will the robot do first?';
+  return shown.runs ? 'What will the robot try to do first?' : 'What will the robot do first?';
+}
+
+type ChoosingProps = Pick<DrivingProps, 'shown' | 'board' | 'legend' | 'worlds' | 'onGuess'> & { paths: [Path, Path] };
+
+const kLetters = ['A', 'B'];
+
+// One of two paths, with what each counts.
+function Choosing({ shown, paths, board, legend, worlds, onGuess }: ChoosingProps): JSX.Element {
+  return (
+    <div class="choices">
+      <ul class="lines">
+        {paths.map((path, i) => (
+          <li>
+            <SmallBoard board={board} legend={legend} path={path} kind="plain" />
+            <Button onClick={() => onGuess({ mine: path, verdict: worlds.judgeFrames(shown, path) })}>Path {kLetters[i]}</Button>
+          </li>
+        ))}
+      </ul>
+      <Ledger board={board} columns={paths.map(({ frames }, i) => ({ name: kLetters[i] ?? '', kind: 'plain', counts: countsOf(frames) }))} />
+    </div>
+  );
 }
 
 // The first move only.
@@ -70,7 +90,7 @@ function Moving({ shown, submit, onGuess, legend, worlds, board, world, skipped 
   return (
     <div class="board-screen">
       <div class="board-column">
-        {board.map ? <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" intents={intents} /> : <StateCard frame={board.start} />}
+        {board.map ? <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" beginsWhole intents={intents} /> : <StateCard frame={board.start} />}
         {board.map && <Things board={board} legend={legend} lines={[]} walked={[]} />}
       </div>
       <div class="side">
@@ -113,7 +133,6 @@ function Driving({ shown, submit, onGuess, legend, worlds, board, world, skipped
       end={t('check.end')}
       stopped={t('check.stopped')}
       isForEver={isForEver}
-      isOneOfMany
     >
       {drive.repeatsFrom !== null && (
         <div class="for-ever">

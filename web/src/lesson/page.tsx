@@ -1,47 +1,83 @@
-// The lesson: every component with its examples and tests, and what the robot is like.
+// The lesson: one board after the other, then what the robot is like, and more boards for those who want them.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Patterns } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
+import { Button } from '../shared/play/button';
+import { enterGoesOn } from '../shared/play/keys';
 import { themeToggle } from '../shared/theme';
-import { counted, usePrinting, Worlds, type Context, type Prediction } from './context';
-import { DemonstrationView, Whole } from './demonstration';
-import type { Component, Lesson } from './document';
+import { CardView, Title, Whole } from './card';
+import { cardsOf, isSameAgain, kindOf, type Card } from './cards';
+import { counted, usePrinting, Worlds, type Context, type Guess } from './context';
+import type { Lesson } from './document';
 import { End } from './portrait';
-import { TestView } from './test_card';
+
+type Step = Card | 'introduction' | 'end';
 
 export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
   const { domain } = lesson;
   const legend = useMemo(() => new Legend(domain), [domain]);
   const worlds = useMemo(() => new Worlds(lesson), [lesson]);
+  const { first, more } = useMemo(() => cardsOf(lesson), [lesson]);
   const isPrinting = usePrinting();
-  const [predictions, setPredictions] = useState<Map<string, Prediction>>(new Map());
-  // What counts is what somebody thought before they had seen the answer.
-  const tell = (key: string, prediction: Prediction): void =>
-    setPredictions((known) => (known.has(key) ? known : new Map(known).set(key, prediction)));
-  const context = { lesson, domain, legend, worlds, tell };
+  const [at, setAt] = useState(0);
+  const [isLonger, setLonger] = useState(false);
+  const [guesses, setGuesses] = useState<Map<string, Guess>>(new Map());
+  const [reached, setReached] = useState(0);
+  useLayoutEffect(enterGoesOn, []);
+  const steps: Step[] = first.length === 0 ? ['introduction'] : ['introduction', ...first, 'end', ...(isLonger ? more : [])];
+  const end = steps.indexOf('end');
+  const go = (to: number): void => {
+    setReached(Math.max(reached, to));
+    setAt(to);
+  };
+  const context = { lesson, domain, legend, worlds };
+  const cards = [...first, ...(isLonger ? more : [])];
+  const kinds = [...guesses].map(([name, { verdict }]) => {
+    const shown = cards.find((card) => card.name === name)?.shown;
+    return shown && verdict?.counts && !verdict.isRight ? kindOf(shown.counts, verdict.counts) : null;
+  });
+  const view = (step: Step, i: number): JSX.Element | null => {
+    const isQuiet = isPrinting || reached === 0;
+    if (step === 'introduction') return <Introduction lesson={lesson} cards={first} isQuiet={isQuiet} onStart={() => go(1)} />;
+    if (step === 'end') {
+      const longer = (): void => {
+        setLonger(true);
+        go(end + 1);
+      };
+      return <End {...context} answers={cards.flatMap((card) => ({ card, guess: guesses.get(card.name) ?? null }))} more={isLonger ? 0 : more.length} onMore={longer} />;
+    }
+    const next = i + 1 < steps.length ? i + 1 : end;
+    return (
+      <CardView
+        key={step.name}
+        {...context}
+        card={step}
+        place={`${cards.indexOf(step) + 1} of ${cards.length}`}
+        guess={guesses.get(step.name) ?? null}
+        isChoice={isSameAgain(kinds) && worlds.choice(step.shown) !== null}
+        onGuess={(guess) => setGuesses((known) => new Map(known).set(step.name, guess))}
+        next={
+          <Button primary onClick={() => go(next)}>
+            {next === end ? 'See what this robot is like' : 'Next board'}
+          </Button>
+        }
+      />
+    );
+  };
   return (
     <>
       <Patterns surfaces={legend.surfaces} />
-      <header>
-        <div class="masthead">
-          <p class="kicker">Lesson</p>
-          <Adopted make={themeToggle} />
-        </div>
+      <header class="masthead">
         <h1>What will the robot do?</h1>
+        <Adopted make={themeToggle} />
       </header>
-      <div class="columns">
-        <Contents lesson={lesson} predictions={predictions} />
-        <main id="main" tabIndex={-1}>
-          <Introduction lesson={lesson} />
-          {lesson.components.map((component) => (
-            <ComponentView component={component} {...context} />
-          ))}
-          {lesson.components.length > 0 && <End {...context} predictions={predictions} />}
-          {isPrinting && <Answers {...context} />}
-          <Notices lesson={lesson} />
-        </main>
-      </div>
+      {steps.length > 1 && <Track steps={steps} at={at} reached={reached} guesses={guesses} onGo={go} />}
+      <main id="main" tabIndex={-1}>
+        {isPrinting ? steps.map(view) : view(steps[at] ?? 'introduction', at)}
+        {isPrinting && <Answers {...context} cards={first} />}
+        {(isPrinting || at === 0 || steps[at] === 'end') && <Notices lesson={lesson} />}
+      </main>
     </>
   );
 }
@@ -53,30 +89,38 @@ function Adopted({ make }: { make: () => HTMLElement }): JSX.Element {
   return <span ref={place} />;
 }
 
-// A segment for every board, filled when it has been predicted.
-function Contents({ lesson, predictions }: { lesson: Lesson; predictions: Map<string, Prediction> }): JSX.Element {
+interface TrackProps {
+  steps: Step[];
+  at: number;
+  reached: number; // nobody goes further than they have come
+  guesses: Map<string, Guess>;
+  onGo: (to: number) => void;
+}
+
+// A place for every board: grey when it is done, with a tick when the reader was right.
+function Track({ steps, at, reached, guesses, onGo }: TrackProps): JSX.Element {
   return (
-    <nav class="contents" aria-label="Contents">
+    <nav class="track no-print" aria-label="Boards">
       <ol>
-        <li>
-          <a href="#introduction">How it works</a>
-        </li>
-        {lesson.components.map(({ number, demonstrations, tests }) => {
-          const names = [...demonstrations.map((_, i) => `example.${number}.${i}`), ...tests.map((_, i) => `test.${number}.${i}`)];
+        {steps.map((step, i) => {
+          const guess = typeof step === 'string' ? undefined : guesses.get(step.name);
+          const word = guess?.verdict?.isRight ? 'right' : guess ? 'done' : '';
+          const name = step === 'introduction' ? 'How it works' : step === 'end' ? 'What this robot is like' : `Board ${i < steps.indexOf('end') ? i : i - 1}, ${step.kind}`;
           return (
             <li>
-              <a href={`#component-${number}`}>Part {number}</a>
-              <span class="segments" aria-hidden="true">
-                {names.map((name) => (
-                  <i class={predictions.has(name) ? 'done' : undefined} />
-                ))}
-              </span>
+              <button
+                type="button"
+                class={word}
+                aria-label={[name, word].filter((text) => text !== '').join(', ')}
+                aria-current={i === at ? 'step' : undefined}
+                disabled={i > reached}
+                onClick={() => onGo(i)}
+              >
+                {word === 'right' ? '\u2713' : ''}
+              </button>
             </li>
           );
         })}
-        <li>
-          <a href="#end">What it is like</a>
-        </li>
       </ol>
     </nav>
   );
@@ -85,41 +129,35 @@ function Contents({ lesson, predictions }: { lesson: Lesson; predictions: Map<st
 // About how long somebody looks at a board that they predict.
 const kMinutes = { least: 0.75, most: 1.5 };
 
-function Introduction({ lesson }: { lesson: Lesson }): JSX.Element {
-  const n = lesson.components.length;
-  const boards = lesson.components.reduce((sum, { demonstrations, tests }) => sum + demonstrations.length + tests.length, 0);
-  const habit = `${lesson.explained ? 'Here it' : 'It'} always takes the path that is best for it.`;
-  const { update } = lesson;
-  const [least, most] = [Math.ceil(boards * kMinutes.least), Math.ceil(boards * kMinutes.most)];
-  return (
-    <section id="introduction" aria-labelledby="introduction-title">
-      <h2 id="introduction-title">How it works</h2>
-      {lesson.domain.job && <p class="job">{lesson.domain.job}</p>}
-      {update && <p>{update.text}</p>}
-      <p hidden={n === 0}>
-        {habit} Your task is to find out what it likes and dislikes. {lesson.explained && `${lesson.explained} `}
-        The lesson has {counted(n, 'part')} with {counted(boards, 'board')} in all, and takes about {least} to {most} minutes. On every board
-        you show first what you think the robot will do. In the tests you are told whether you were right.
-      </p>
-    </section>
-  );
+interface IntroductionProps {
+  lesson: Lesson;
+  cards: Card[];
+  isQuiet: boolean;
+  onStart: () => void;
 }
 
-function ComponentView({ component, ...context }: Context & { component: Component }): JSX.Element {
-  const { number, demonstrations, tests } = component;
-  const id = `component-${number}`;
+function Introduction({ lesson, cards, isQuiet, onStart }: IntroductionProps): JSX.Element {
+  const { update, explained } = lesson;
+  const [least, most] = [kMinutes.least, kMinutes.most].map((minutes) => Math.ceil(cards.length * minutes));
   return (
-    <section id={id} aria-labelledby={`${id}-title`}>
-      <h2 id={`${id}-title`}>Part {number}</h2>
-      {demonstrations.map((shown, i) => (
-        <DemonstrationView shown={shown} number={i + 1} name={`example.${number}.${i}`} {...context} />
-      ))}
-      {tests.length > 0 && (
+    <section id="introduction">
+      <Title isQuiet={isQuiet}>How it works</Title>
+      {lesson.domain.job && <p class="job">{lesson.domain.job}</p>}
+      {update && <p>{update.text}</p>}
+      {cards.length > 0 && (
         <>
-          <h3>{tests.length === 1 ? 'A test' : 'Tests'}</h3>
-          {tests.map((test, i) => (
-            <TestView test={test} title={`Test ${i + 1}`} name={`test.${number}.${i}`} {...context} />
-          ))}
+          <p>
+            {explained ? 'Here it' : 'It'} always takes the path that is best for it. Find out what it likes and dislikes: on every board, show first what you think
+            it will do, then see what it does. {explained}
+          </p>
+          <p>
+            {counted(cards.length, 'board')}, about {least} to {most} minutes.
+          </p>
+          <div class="submit no-print">
+            <Button primary onClick={onStart}>
+              Start
+            </Button>
+          </div>
         </>
       )}
     </section>
@@ -127,20 +165,18 @@ function ComponentView({ component, ...context }: Context & { component: Compone
 }
 
 // On paper the answers are on the last page.
-function Answers({ ...context }: Context): JSX.Element {
+function Answers({ cards, ...context }: Context & { cards: Card[] }): JSX.Element {
   return (
     <section class="answers" aria-labelledby="answers-title">
       <h2 id="answers-title">Answers</h2>
       <div class="pair">
-        {context.lesson.components.flatMap(({ number, tests }) =>
-          tests.map((test, i) => (
+        {cards.map(({ kind, shown }, i) =>
+          kind === 'Test' ? (
             <figure>
-              <Whole {...context} board={test} />
-              <figcaption>
-                Part {number}, test {i + 1}
-              </figcaption>
+              <Whole {...context} board={shown} />
+              <figcaption>Board {i + 1}</figcaption>
             </figure>
-          )),
+          ) : null,
         )}
       </div>
     </section>

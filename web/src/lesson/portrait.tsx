@@ -1,50 +1,43 @@
 // The end: how often the reader was right, what the robot is like, with a board for every sentence, and what is new.
 import type { JSX } from 'preact';
-import { useState } from 'preact/hooks';
 import { Button } from '../shared/play/button';
 import { Brackets, type Bracket } from '../shared/play/brackets';
-import { counted, partingOf, upperFirst, usePrinting, type Context, type Prediction } from './context';
-import { Folded, Whole } from './demonstration';
+import { Title, Whole } from './card';
+import type { Card } from './cards';
+import { counted, partingOf, upperFirst, usePrinting, type Context, type Guess } from './context';
 import type { Component, Demonstration } from './document';
-import { TestView } from './test_card';
 
 const kEasy = 2; // so many things are weighed in a sentence that people remember
 
 interface EndProps extends Context {
-  predictions: Map<string, Prediction>;
+  answers: { card: Card; guess: Guess | null }[];
+  more: number; // boards that are offered
+  onMore: () => void;
 }
 
-export function End({ predictions, ...context }: EndProps): JSX.Element {
-  const [open, setOpen] = useState(false);
+export function End({ answers, more, onMore, ...context }: EndProps): JSX.Element {
   const isPrinting = usePrinting();
-  const { lesson } = context;
-  const tests = lesson.components.flatMap(({ number, tests: all }) => all.map((_, i) => `test.${number}.${i}`));
-  const answered = tests.flatMap((name) => predictions.get(name) ?? []);
-  const right = answered.filter(({ isRight }) => isRight).length;
+  const predicted = answers.filter(({ guess }) => guess?.mine);
+  const right = predicted.filter(({ guess }) => guess?.verdict?.isRight).length;
   return (
-    <section id="end" aria-labelledby="end-title">
-      <h2 id="end-title">What this robot is like</h2>
-      <p role="status">
-        {answered.length === 0
-          ? 'Here is everything that this lesson shows about the robot. Predict it first.'
-          : `You predicted the robot correctly in ${right} of ${tests.length} tests${answered.length < tests.length ? ' so far' : ''}.`}
-      </p>
-      {open || isPrinting ? (
-        <Portrait {...context} predictions={predictions} />
-      ) : (
-        <Button primary={answered.length === tests.length} onClick={() => setOpen(true)}>
-          Show the robot in one page
-        </Button>
+    <section id="end">
+      <Title isQuiet={isPrinting}>What this robot is like</Title>
+      {predicted.length > 0 && (
+        <p role="status">
+          You predicted the robot correctly on {right} of {counted(predicted.length, 'board')}.
+        </p>
       )}
-      {lesson.fresh.length > 0 && !isPrinting && (
-        <>
-          <h3>New boards</h3>
-          <p>Now that you know the robot: boards that were not in this lesson.</p>
-          {lesson.fresh.map((test, i) => (
-            <TestView {...context} test={test} title={`New board ${i + 1}`} name={`fresh.${i}`} />
-          ))}
-        </>
-      )}
+      <Portrait {...context} answers={predicted} />
+      <div class="submit no-print">
+        <div class="buttons">
+          {more > 0 && (
+            <Button primary onClick={onMore}>
+              {counted(more, 'more board')}
+            </Button>
+          )}
+          <Button onClick={() => window.print()}>Print</Button>
+        </div>
+      </div>
     </section>
   );
 }
@@ -55,7 +48,7 @@ function shownBy({ demonstrations }: Component, all: Component[], text: string):
   return demonstrations.find(says) ?? all.flatMap((one) => one.demonstrations).find(says) ?? demonstrations[0];
 }
 
-function Portrait({ predictions, ...context }: EndProps): JSX.Element {
+function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>): JSX.Element {
   const isPrinting = usePrinting();
   const { components, skipped, endless, update } = context.lesson;
   const known = new Map<number, Bracket>();
@@ -76,7 +69,7 @@ function Portrait({ predictions, ...context }: EndProps): JSX.Element {
       {some.map(({ text, board }) => (
         <li>
           <p class="cost">{upperFirst(text)}.</p>
-          {board && <Whole {...context} board={board} other={board.runs ? null : board.alternative} at={board.decisive?.frame ?? null} />}
+          {board && <Whole {...context} board={board} other={board.runs ? null : board.alternative} otherKind="plain" at={board.decisive?.frame ?? null} />}
         </li>
       ))}
     </ul>
@@ -96,9 +89,12 @@ function Portrait({ predictions, ...context }: EndProps): JSX.Element {
       {shown(lines.filter(({ things }) => things <= kEasy))}
       {update && update.still.length > 0 && <p>As before, {update.still.join('; ')}.</p>}
       {fine.length > 0 && (
-        <Folded summary={`${counted(fine.length, 'finer trade-off')}, of more than ${kEasy} things`} isOpen={isPrinting}>
+        <details open={isPrinting}>
+          <summary>
+            {counted(fine.length, 'finer trade-off')}, of more than {kEasy} things
+          </summary>
           {shown(fine)}
-        </Folded>
+        </details>
       )}
       <Brackets brackets={[...known.values()]} />
       {skipped.length > 0 && (
@@ -113,27 +109,26 @@ function Portrait({ predictions, ...context }: EndProps): JSX.Element {
           </ul>
         </>
       )}
-      <FirstAndLast {...context} predictions={predictions} />
-      <div class="submit no-print">
-        <Button onClick={() => window.print()}>Print</Button>
-      </div>
+      <FirstAndLast {...context} answers={answers} />
     </div>
   );
 }
 
 // One's first and last prediction, side by side.
-function FirstAndLast({ predictions, ...context }: EndProps): JSX.Element | null {
-  const made = [...predictions.values()].filter(({ mine }) => mine !== null);
-  const [first, last] = [made[0], made[made.length - 1]];
-  if (!first || !last || made.length < 2) return null;
-  const one = ({ shown, mine, isRight }: Prediction, title: string): JSX.Element => (
-    <figure>
-      <Whole {...context} board={shown} other={isRight ? null : mine} at={mine && !isRight ? partingOf(shown, mine) : null} />
-      <figcaption>
-        {title}: {isRight ? 'right.' : 'the dashed line is yours, the solid one the robot\u2019s.'}
-      </figcaption>
-    </figure>
-  );
+function FirstAndLast({ answers, ...context }: Context & Pick<EndProps, 'answers'>): JSX.Element | null {
+  const [first, last] = [answers[0], answers.at(-1)];
+  if (!first || !last || answers.length < 2) return null;
+  const one = ({ card: { shown }, guess }: typeof first, title: string): JSX.Element => {
+    const other = guess?.verdict?.isRight ? null : (guess?.mine ?? null);
+    return (
+      <figure>
+        <Whole {...context} board={shown} other={other} at={other && partingOf(shown, other)} />
+        <figcaption>
+          {title}: {other ? 'the dashed line is yours, the solid one the robot\u2019s.' : 'right.'}
+        </figcaption>
+      </figure>
+    );
+  };
   return (
     <>
       <h3>How far you have come</h3>

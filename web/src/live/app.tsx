@@ -2,6 +2,7 @@
 import { Component, type ComponentChildren, type JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
 import { duration } from '../shared/duration';
+import { enterGoesOn } from '../shared/play/keys';
 import type { SocketState } from '../shared/reconnecting_socket';
 import { useTick } from './clock';
 import { Connection, type Snapshot } from './connection';
@@ -37,6 +38,7 @@ export function App(): JSX.Element {
     forgetParticipant();
     setToken(null);
   };
+  useLayoutEffect(enterGoesOn, []);
   // Another link opened in this tab is another person.
   useLayoutEffect(() => {
     const changed = (): void => location.reload();

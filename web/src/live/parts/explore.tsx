@@ -120,7 +120,7 @@ function Answer({ result, before, isAsked }: { result: Explored; before: Explore
         {result.tie && <p>{t('explore.tie')}</p>}
         {isEnglish() && result.reason && <p class="cost">{sentence(result.reason)}</p>}
       </div>
-      <Ledger domain={result.board.domain} columns={[...columns, ...other]} />
+      <Ledger board={result.board} columns={[...columns, ...other]} />
     </>
   );
 }

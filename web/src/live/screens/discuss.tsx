@@ -49,7 +49,7 @@ export function Discuss({ discuss, view, connection }: ScreenProps & { discuss: 
                 legend={legend}
                 frames={played(one)}
                 step={played(one).length - 1}
-                trail={one.own ? 'own' : 'other'}
+                trail="plain"
                 closedAt={closedAt(one)}
                 isSmall
               />

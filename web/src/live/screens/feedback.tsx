@@ -34,7 +34,7 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
   const isLast = index >= feedback.tests.length - 1;
   const off = connection.isPending('continue');
   const next = (
-    <div class="submit">
+    <div class="submit act-bar">
       {isLast && feedback.all_right && feedback.tests.length > 1 && <p>{t('feedback.all_right')}</p>}
       <Button primary off={off} onClick={() => (isLast ? connection.send('continue', {}) : go(index + 1))}>
         {t(off ? 'feedback.continuing' : isLast ? 'common.continue' : 'common.next')}
@@ -86,7 +86,7 @@ function OneTask({ test, token, brackets, next }: OneTaskProps): JSX.Element {
         <Mark verdict={verdict} />
         <Heading>{t(`feedback.title.${verdict}`)}</Heading>
       </div>
-      <p class="lead">{t(leadKey(test))}</p>
+      {!(test.cost && board.map) && <p class="lead">{t(leadKey(test))}</p>}
       <WorldName board={board} />
       <Compare
         board={board}

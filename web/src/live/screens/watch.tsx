@@ -9,6 +9,7 @@ import { StateCard, StepList } from '../../shared/play/steps';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { closedAt, played } from '../../shared/board/repeats';
 import type { Frame, Path } from '../../shared/board/types';
+import { useCalm } from '../../shared/playback';
 import { useDrive } from '../../shared/play/drive';
 import { Driver } from '../../shared/play/driver';
 import type { World } from '../../shared/play/world';
@@ -101,8 +102,7 @@ function Watching({ sketch, ...props }: WatchingProps & { sketch: Frame[] }): JS
     <>
       <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
       <Heading>{t('watch.title')}</Heading>
-      <p class="lead">{t(leadKey(watch, wasSeen))}</p>
-      {sketch.length > 1 && !runs && <p>{t('watch.compare')}</p>}
+      <p class="lead">{t(sketch.length > 1 && !runs && !wasSeen ? 'watch.compare' : leadKey(watch, wasSeen))}</p>
       <Job board={board} />
       <WorldName board={board} />
       <TimeLeft until={view.limit_ms} />
@@ -136,13 +136,14 @@ function WatchingPath({ sketch, wasSeen, onSeen, ...props }: WatchingProps & See
   const { board } = watch;
   const frames = played(watch);
   const legend = useLegend(board.domain);
-  const playback = usePacedPlayback(Math.max(0, frames.length - 1));
+  const hasSketch = sketch.length > 1;
+  const isAuto = !useCalm() && hasSketch && !wasSeen;
+  const playback = usePacedPlayback(Math.max(0, frames.length - 1), { from: 0, isAuto });
   const { step, last } = playback;
   const log = usePathLog(board, legend, watch, step);
   useLayoutEffect(() => {
     if (step === last) onSeen();
   }, [step, last]);
-  const hasSketch = sketch.length > 1;
   return (
     <div class="board-screen">
       <div class="board-column">
@@ -163,7 +164,7 @@ function WatchingPath({ sketch, wasSeen, onSeen, ...props }: WatchingProps & See
         {board.map && <Things board={board} legend={legend} lines={hasSketch ? ['own', 'other'] : ['own']} walked={frames.slice(0, step + 1)} />}
       </div>
       <div class="side">
-        <Ledger domain={board.domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
+        <Ledger board={board} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
         <Player playback={playback} primary={!wasSeen} />
         <GoOn {...props} wasSeen={wasSeen} hint={hint(wasSeen, watch, isJobDone(board, legend, frames.at(-1)))} />
         {board.map ? (
@@ -178,7 +179,7 @@ function WatchingPath({ sketch, wasSeen, onSeen, ...props }: WatchingProps & See
 
 function GoOn({ watch, connection, wasSeen, hint: text }: WatchingProps & { wasSeen: boolean; hint: string }): JSX.Element {
   return (
-    <div class="submit">
+    <div class="submit act-bar">
       <Button
         primary={wasSeen}
         off={!wasSeen || connection.isPending('watched')}

@@ -8,7 +8,7 @@ import { At, Destination, fillOf, PartGlyph, Robot, Station, Thing } from './gly
 import { isRidden } from './icons';
 import type { Legend } from './legend';
 import { OverviewMap } from './overview';
-import type { Board, Frame, Item, MapDomain, Place } from './types';
+import type { Board, Frame, Item, MapDomain, PathKind, Place } from './types';
 import { BoardWindow, type WindowTexts } from './window';
 
 export const kFew = 12; // columns of a map that is drawn in full size
@@ -29,7 +29,7 @@ export interface BoardProps {
   step: number;
   label: string;
   path?: boolean; // whether the path is drawn, as far as it has been walked
-  kind?: 'own' | 'other'; // how it is drawn, 'own' unless said otherwise
+  kind?: PathKind; // how it is drawn, 'own' unless said otherwise
   fill?: boolean; // as large as its place allows
   whole?: boolean; // both paths are drawn to their ends, wherever the robots are
   chips?: Chip[];
@@ -38,9 +38,11 @@ export interface BoardProps {
   tail?: number; // only so many of the last steps are drawn
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
   closedAt?: number | undefined; // the step with which the path closes a cycle; it is drawn as far as that
-  other?: Frame[]; // the path that somebody might expect
+  other?: Frame[]; // the path that it is compared with
+  otherKind?: PathKind; // how that is drawn, 'other' unless said otherwise
   otherClosedAt?: number | undefined;
   decisive?: { frame: number; cell?: Place } | null;
+  beginsWhole?: boolean; // all of a large map is shown at first
   texts?: WindowTexts; // if present, small cells are enlarged, and a window shows a part of the map
   hasArrows?: boolean; // the arrow keys do something else, and move the window only together with Shift
 }
@@ -55,7 +57,11 @@ export function BoardView(props: BoardProps): JSX.Element {
   const frame = board.frames[step] ?? board.start;
   const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
   const kind = props.kind ?? 'own';
-  const drawn = props.whole ? Math.max(board.frames.length, other?.length ?? 0) - 1 : walked;
+  const last = Math.max(board.frames.length, other?.length ?? 0) - 1;
+  // Of two paths that have been gone, it is the place where they separate that tells why.
+  const centred = props.whole && decisive?.cell && walked >= last ? decisive.cell : frame.robot;
+  const otherKind = props.otherKind ?? 'other';
+  const drawn = props.whole ? last : walked;
   const ownDrawn = props.whole ? board.frames.length - 1 : step;
   const own = path && ownDrawn > 0 ? board.frames.slice(0, Math.min(ownDrawn, props.closedAt ?? ownDrawn) + 1) : [];
   const first = decisive?.frame ?? 0;
@@ -66,22 +72,23 @@ export function BoardView(props: BoardProps): JSX.Element {
       {ground}
       <Intents intents={props.intents ?? []} />
       {decisive?.cell && drawn > decisive.frame && <Decisive cell={decisive.cell} />}
-      {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind="other" closedAt={props.otherClosedAt} />}
+      {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind={otherKind} closedAt={props.otherClosedAt} />}
       {own.length > 0 && <Way frames={own} first={props.tail === undefined ? 0 : Math.max(0, own.length - 1 - props.tail)} lane={kRobotLane} kind={kind} closedAt={props.closedAt} />}
       <Things {...props} frame={frame} />
-      {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} legend={props.legend} />}
+      {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} legend={props.legend} kind={otherKind} />}
       <Mover frame={frame} legend={props.legend} />
       {props.fan && <Fan arms={props.fan} />}
       {props.chips && <Chips chips={props.chips} frames={board.frames} other={other ?? []} first={first} width={width} height={height} />}
     </svg>
   );
-  const overview = { domain, legend: props.legend, board, frame, own, other: others.slice(first), kind };
+  const overview = { domain, legend: props.legend, board, frame, own, other: others.slice(first), kind, otherKind };
   return (
     <div class={`board${isLarge ? ' large' : ''}${props.fill ? ' fill' : ''}`} {...size}>
       {isLarge && props.texts ? (
         <BoardWindow
           domain={domain}
-          robot={frame.robot}
+          centred={centred}
+          beginsWhole={props.beginsWhole ?? false}
           texts={props.texts}
           isHeightLimited={props.fill ?? false}
           hasArrows={props.hasArrows ?? false}
@@ -336,10 +343,10 @@ function Loaded({ frame, legend }: { frame: Frame; legend: Legend }): JSX.Elemen
   );
 }
 
-function Ghost({ frame, legend }: { frame: Frame | undefined; legend: Legend }): JSX.Element | null {
+function Ghost({ frame, legend, kind }: { frame: Frame | undefined; legend: Legend; kind: PathKind }): JSX.Element | null {
   if (!frame?.robot) return null;
   return (
-    <g class="mover ghost" style={moved(frame.robot)}>
+    <g class={`mover ghost ${kind}`} style={moved(frame.robot)}>
       <Loaded frame={frame} legend={legend} />
     </g>
   );

@@ -1,14 +1,14 @@
 // What one path has more of than the other, written on it: "+1 rubble".
 import type { JSX } from 'preact';
 import { centre, kMargin, type Point } from './geometry';
-import type { Frame } from './types';
+import type { Frame, PathKind } from './types';
 
 export interface Chip {
-  kind: 'own' | 'other';
+  kind: PathKind;
   text: string;
 }
 
-const kSeen = 520; // pixels that a board is about wide, and
+const kSeen = 520; // pixels that a board is wide where there is room, and
 const kText = 15; // pixels of the letters on it
 
 interface Props {
@@ -21,7 +21,7 @@ interface Props {
 }
 
 export function Chips({ chips, frames, other, first, width, height }: Props): JSX.Element {
-  const size = Math.max(5.5, Math.min(21, (kText * width) / kSeen));
+  const size = Math.max(5.5, Math.min(21, (kText * width) / Math.min(kSeen, window.innerWidth)));
   const taken: Point[] = [];
   return (
     <g class="chips" aria-hidden="true">

@@ -85,7 +85,7 @@ export function Thing({ name, letter, small }: { name: string; letter: string; s
   );
 }
 
-// Where a thing belongs: its empty outline, and with a tick once the thing is there.
+// Where a thing belongs: its empty outline, filled once the thing is there.
 export function Destination({ name, letter, isFilled }: { name: string; letter: string; isFilled?: boolean }): JSX.Element {
   return (
     <g class={isFilled ? 'destination filled' : 'destination'}>
@@ -93,12 +93,6 @@ export function Destination({ name, letter, isFilled }: { name: string; letter: 
       <g class="wanted">
         <Sign name={name} letter={letter} size={18} />
       </g>
-      {isFilled && (
-        <g class="tick" transform="translate(12 -12)">
-          <circle r={7} />
-          <path d="M-3.3 0-.9 2.6 3.4-2.6" />
-        </g>
-      )}
     </g>
   );
 }

@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { centre, kMargin, kUnit } from './geometry';
 import type { Legend } from './legend';
-import type { Board, Frame, MapDomain, Place } from './types';
+import type { Board, Frame, MapDomain, PathKind, Place } from './types';
 import type { Seen } from './window';
 
 interface Props {
@@ -13,12 +13,13 @@ interface Props {
   frame: Frame;
   own: Frame[]; // paths as far as they are drawn
   other: Frame[];
-  kind: 'own' | 'other'; // how the first is drawn
+  kind: PathKind; // how the first is drawn
+  otherKind?: PathKind;
   seen?: Seen; // nothing: all of it is seen
   label?: string; // for those who do not see it
 }
 
-export function OverviewMap({ domain, legend, board, frame, own, other, kind, seen, label }: Props): JSX.Element {
+export function OverviewMap({ domain, legend, board, frame, own, other, kind, otherKind = 'other', seen, label }: Props): JSX.Element {
   const [width, height] = [(domain.width ?? 0) * kUnit, (domain.height ?? 0) * kUnit];
   const ground = useMemo(() => <Ground map={board.map ?? []} legend={legend} />, [board.map, legend]);
   const lying = (frame.items ?? []).filter(({ carried }) => !carried).map(({ cell }) => cell);
@@ -27,7 +28,7 @@ export function OverviewMap({ domain, legend, board, frame, own, other, kind, se
       <rect class="floor" width={width} height={height} />
       {ground}
       <rect class="frame" width={width} height={height} />
-      {other.length > 1 && <polyline class="trace other" points={trace(other)} />}
+      {other.length > 1 && <polyline class={`trace ${otherKind}`} points={trace(other)} />}
       {own.length > 1 && <polyline class={`trace ${kind}`} points={trace(own)} />}
       {[...cellsOf(board.map ?? [], legend, ['goal', 'destination']), ...(frame.stations ?? []), ...lying].map((cell) => (
         <Dot name="spot" cell={cell} />

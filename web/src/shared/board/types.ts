@@ -37,6 +37,9 @@ export interface Path {
   repeats_text?: string;
 }
 
+// Whose a path is: the robot's, the reader's, or somebody else's.
+export type PathKind = 'own' | 'other' | 'plain';
+
 export interface Board extends Path {
   world: number;
   map?: string[]; // absent where the domain has none

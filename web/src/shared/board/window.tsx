@@ -31,7 +31,8 @@ export interface Seen extends Point {
 
 interface Props {
   domain: MapDomain;
-  robot: Place | undefined;
+  centred: Place | undefined; // stays in the window
+  beginsWhole: boolean;
   texts: WindowTexts;
   isHeightLimited: boolean; // the style limits the height of the board also if all of it is shown
   hasArrows: boolean; // the arrow keys do something else here, and move the window only together with Shift
@@ -40,20 +41,20 @@ interface Props {
 }
 
 export function BoardWindow(props: Props): JSX.Element {
-  const { domain, robot, texts, isHeightLimited, hasArrows, overview, children } = props;
+  const { domain, centred, texts, isHeightLimited, hasArrows, overview, children } = props;
   const pan = useRef<HTMLDivElement>(null);
   const isSmall = useSmallCells(pan, domain, isHeightLimited);
-  const [wantsWhole, setWantsWhole] = useState(false);
+  const [wantsWhole, setWantsWhole] = useState(props.beginsWhole);
   const isEnlarged = isSmall && !wantsWhole;
   const [seen, setSeen] = useState<Seen | null>(null);
-  useFollowing(pan, robot, isEnlarged);
+  useFollowing(pan, centred, isEnlarged);
   useShiftKeys(pan, isEnlarged && hasArrows);
   const dragging = useDragging(pan, isEnlarged);
   const look = (): void => {
     const box = pan.current;
     if (box) setSeen(seenIn(box));
   };
-  useLayoutEffect(look, [isEnlarged, robot?.[0], robot?.[1]]);
+  useLayoutEffect(look, [isEnlarged, centred?.[0], centred?.[1]]);
   const move = (to: Point): void => {
     if (pan.current) centreOn(pan.current, to, 'auto');
   };

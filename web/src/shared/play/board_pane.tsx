@@ -4,11 +4,11 @@ import { useMemo, useState } from 'preact/hooks';
 import { BoardView, IntentGlyph, Tried, type Intent } from '../board/board';
 import type { Chip } from '../board/chips';
 import type { Arm } from '../board/fan';
-import { hasSlipped, kUnit, lineOf } from '../board/geometry';
-import { PartGlyph, Robot } from '../board/glyphs';
+import { hasSlipped, kUnit } from '../board/geometry';
+import { PartGlyph } from '../board/glyphs';
 import { Legend } from '../board/legend';
 import type { WindowTexts } from '../board/window';
-import type { Frame, MapDomain, Part, Place, PlayBoard } from '../board/types';
+import type { Frame, MapDomain, Part, PathKind, Place, PlayBoard } from '../board/types';
 import { capitalised, isEnglish, named, t } from '../texts';
 import { boardText, cellTexts } from './words';
 
@@ -37,10 +37,11 @@ interface Props {
   legend: Legend;
   frames: Frame[]; // the path
   step: number;
-  trail: 'own' | 'other'; // the robot's path or a prediction
+  trail: PathKind;
   walked?: number;
   closedAt?: number | undefined;
   other?: Frame[];
+  otherKind?: PathKind;
   otherClosedAt?: number | undefined;
   decisive?: { frame: number; cell?: Place } | null;
   whole?: boolean;
@@ -48,6 +49,7 @@ interface Props {
   fan?: Arm[];
   intents?: Intent[];
   tail?: number; // only so many of the last steps are drawn
+  beginsWhole?: boolean;
   isSmall?: boolean; // a picture of the whole board beside others
   isBare?: boolean; // part of something that says what it is
   onCell?: (cell: Place) => void;
@@ -88,7 +90,6 @@ function cellUnder(event: MouseEvent): Place | null {
 }
 
 function legendName({ kind, name }: Part): string {
-  if (kind === 'wall') return t('legend.wall');
   if (kind === 'destination') return t('legend.destination', { name: named(name.replace(/^destination of /, '')) });
   return capitalised(named(name));
 }
@@ -107,12 +108,14 @@ export function WorldName({ board }: { board: PlayBoard }): JSX.Element | null {
 interface ThingsProps {
   board: PlayBoard;
   legend: Legend;
-  lines: ('own' | 'other')[];
+  lines: PathKind[];
   walked: Frame[]; // the path as far as it is drawn
   decisive?: boolean; // whether the place where paths separate is marked
   otherLine?: string; // what a line of the other kind is
   hasIntents?: boolean; // whether it is drawn where the robot means to go
 }
+
+const kObvious = new Set(['wall', 'item']); // drawn so that nobody has to be told
 
 // What is on this board, and nothing else.
 export function Things({ board, legend, lines, walked, decisive, otherLine, hasIntents }: ThingsProps): JSX.Element {
@@ -124,19 +127,17 @@ export function Things({ board, legend, lines, walked, decisive, otherLine, hasI
   }
   for (const cell of board.start.stations ?? []) onMap.add(`station ${legend.stationAt(board.map ?? [], cell)}`);
   for (const { name } of board.start.items ?? []) onMap.add(`${legend.placed(name).kind} ${name}`);
-  const parts = legend.things().filter(({ kind, name }) => onMap.has(`${kind} ${name}`));
+  const parts = legend.things().filter(({ kind, name }) => !kObvious.has(kind) && onMap.has(`${kind} ${name}`));
   const kind = lines[0] ?? 'own';
   return (
     <ul class="legend" aria-label={t('legend.title')}>
-      <Entry name={t('legend.robot')}>
-        <Robot />
-      </Entry>
       {parts.map((part) => (
-        <Entry name={legendName(part)} isSurface={part.kind === 'terrain' || part.kind === 'wall'}>
+        <Entry name={legendName(part)} isSurface={part.kind === 'terrain'}>
           <PartGlyph part={part} legend={legend} />
         </Entry>
       ))}
       {walked.length > 1 &&
+        lines.length > 1 &&
         lines.map((line) => (
           <Entry name={line === 'own' ? t('legend.path') : (otherLine ?? t('legend.trail'))}>
             <g class={`way ${line}`}>
@@ -145,13 +146,6 @@ export function Things({ board, legend, lines, walked, decisive, otherLine, hasI
             </g>
           </Entry>
         ))}
-      {lineOf(walked, 0, 0).stops.length > 0 && (
-        <Entry name={t('legend.stop')}>
-          <g class={`way ${kind}`}>
-            <circle class="stop" r={17} />
-          </g>
-        </Entry>
-      )}
       {hasIntents && (
         <Entry name={t('legend.intent')}>
           <IntentGlyph action="right" kind="own" />

@@ -57,18 +57,20 @@ function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): 
   return (
     <div class="bracket">
       <p>{isEnglish() ? sentence(bracket.text) : inNumbers(bracket, counted)}</p>
-      <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
-        <path class="axis" d={`M${kSide} 13H${kWidth - kSide}`} />
-        <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />
-        {from !== null && from !== 0 && <path class="end" d={`M${left} 3V23`} />}
-        {to !== null && <path class="end" d={`M${right} 3V23`} />}
-        {to === null && <path class="on" d={`M${right - 3} 7l6 6-6 6`} />}
-        {ticks.map((x) => (
-          <text x={place(x)} y={36} text-anchor="middle" font-size={12}>
-            {Math.abs(x)}
-          </text>
-        ))}
-      </svg>
+      {ends.some((end) => end !== 0) && ( // a scale tells nothing where only the sign is known
+        <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
+          <path class="axis" d={`M${kSide} 13H${kWidth - kSide}`} />
+          <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />
+          {from !== null && from !== 0 && <path class="end" d={`M${left} 3V23`} />}
+          {to !== null && <path class="end" d={`M${right} 3V23`} />}
+          {to === null && <path class="on" d={`M${right - 3} 7l6 6-6 6`} />}
+          {ticks.map((x) => (
+            <text x={place(x)} y={36} text-anchor="middle" font-size={12}>
+              {Math.abs(x)}
+            </text>
+          ))}
+        </svg>
+      )}
     </div>
   );
 }

@@ -3,7 +3,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 import type { Legend } from '../board/legend';
 import { closedAt, played } from '../board/repeats';
-import type { Frame, Path, PlayBoard } from '../board/types';
+import type { Frame, Path, PathKind, PlayBoard } from '../board/types';
 import { t } from '../texts';
 import { BoardInWords, BoardPane, Things } from './board_pane';
 import { chipsOf, countsOf, Ledger } from './ledger';
@@ -16,6 +16,7 @@ interface Props {
   legend: Legend;
   robot: Path;
   other: Path | null;
+  isYours?: boolean; // it is the reader's
   otherName: string; // "You"
   otherLine: string; // what its line is called in the legend: "Your path"
   at: number | null; // where they separate
@@ -34,6 +35,7 @@ export function Compare(props: Props): JSX.Element {
   const { step } = playback;
   const log = usePathLog(board, legend, props.robot, step);
   const decisive = at === null || !other ? null : { frame: at, ...cellOf(robot[at]) };
+  const kind: PathKind = props.isYours === false ? 'plain' : 'other';
   const robotStep = Math.min(step, robot.length - 1);
   const isOver = step === last;
   const counts = [countsOf(robot, isOver || isStill ? robot.length - 1 : robotStep)];
@@ -58,20 +60,20 @@ export function Compare(props: Props): JSX.Element {
             whole
             decisive={decisive}
             closedAt={closedAt(props.robot)}
-            {...(other && props.other ? { other, otherClosedAt: closedAt(props.other) } : {})}
-            {...(other && counts.length > 1 && !isForEver ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other)) } : {})}
+            {...(other && props.other ? { other, otherKind: kind, otherClosedAt: closedAt(props.other) } : {})}
+            {...(other && counts.length > 1 && !isForEver ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other), kind) } : {})}
           />
         ) : (
           <StateCard frame={frame} />
         )}
         {!isStill && <LogView log={log} />}
-        {board.map && <Things board={board} legend={legend} lines={other ? ['own', 'other'] : ['own']} walked={robot} decisive={decisive !== null} otherLine={props.otherLine} />}
+        {board.map && <Things board={board} legend={legend} lines={other ? ['own', kind] : ['own']} walked={robot} decisive={decisive !== null} otherLine={props.otherLine} />}
       </div>
       <div class="side">
         {props.reason}
         <Ledger
-          domain={board.domain}
-          columns={counts.map((one, i) => ({ name: names[i] ?? '', kind: i === 0 ? 'own' : 'other', counts: one, endless: endless[i] ?? [] }))}
+          board={board}
+          columns={counts.map((one, i) => ({ name: names[i] ?? '', kind: i === 0 ? 'own' : kind, counts: one, endless: endless[i] ?? [] }))}
         />
         {!isStill && <Player playback={playback} primary={false} />}
         {props.children}

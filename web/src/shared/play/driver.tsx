@@ -28,7 +28,6 @@ interface Props {
   stopped: string; // when it has come to an end elsewhere
   isForEver?: boolean; // the path is said to go on like this for ever
   children: ComponentChildren; // below the pad
-  isOneOfMany?: boolean; // other boards on the page want keys, too: those pressed on the board are for it
 }
 
 // While the world is being fetched, only the board is there.
@@ -37,7 +36,7 @@ export function BoardAlone({ board, legend, children }: { board: PlayBoard; lege
     <div class="board-screen">
       <div class="board-column">
         {board.map ? (
-          <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
+          <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" beginsWhole />
         ) : (
           <StateCard frame={board.start} />
         )}
@@ -47,13 +46,13 @@ export function BoardAlone({ board, legend, children }: { board: PlayBoard; lege
   );
 }
 
-export function Driver({ board, legend, world, drive, off, isForEver, isOneOfMany, children, ...said }: Props): JSX.Element {
+export function Driver({ board, legend, world, drive, off, isForEver, children, ...said }: Props): JSX.Element {
   const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
   const end = isJobDone(board, legend, drive.frames.at(-1)) ? said.end : said.stopped;
   const tell = useTelling({ board, legend, drive, log, end });
   const handles = world.actions.some(({ index }) => world.isHandling(index));
   const area = useRef<HTMLDivElement>(null);
-  useKeys({ world, drive, off, tell, area, isOneOfMany: isOneOfMany ?? false });
+  useKeys({ world, drive, off, tell, area });
   const frame = drive.frames.at(-1) ?? board.start;
   return (
     <div class="board-screen">
@@ -66,6 +65,7 @@ export function Driver({ board, legend, world, drive, off, isForEver, isOneOfMan
               frames={drive.frames}
               step={drive.actions.length}
               trail="other"
+              beginsWhole
               closedAt={isForEver ? drive.actions.length : undefined}
               onCell={(cell) => {
                 if (!off) tell(clicked(world, drive, cell));
@@ -79,23 +79,27 @@ export function Driver({ board, legend, world, drive, off, isForEver, isOneOfMan
         {board.map && <Things board={board} legend={legend} lines={['other']} walked={drive.frames} />}
       </div>
       <div class="side">
-        <Ledger domain={board.domain} columns={[{ name: t('ledger.you'), kind: 'other', counts: countsOf(drive.frames) }]} />
-        <Pad
-          actions={world.actions}
-          off={off}
-          canDo={(action) => world.after(drive.state, action) !== null}
-          onAction={(action) => tell(drive.act(action))}
-        />
-        <div class="act-bar">
+        <Ledger board={board} columns={[{ name: t('ledger.you'), kind: 'other', counts: countsOf(drive.frames) }]} />
+        <div class="act-bar driving">
+          <Pad
+            actions={world.actions}
+            off={off}
+            canDo={(action) => world.after(drive.state, action) !== null}
+            onAction={(action) => tell(drive.act(action))}
+          />
           <div class="buttons">
             <Button
+              class="undo"
               off={off || drive.actions.length === 0}
               onClick={() => {
                 drive.undo();
                 log.say(t('predict.undone'));
               }}
             >
-              {t('predict.undo')}
+              <svg class="icon" viewBox="0 0 24 24" aria-hidden="true" focusable="false">
+                <path d="M9 4 3 9.5 9 15V11h5.5a3.5 3.5 0 0 1 0 7H8v2.5h6.5a6 6 0 0 0 0-12H9z" />
+              </svg>
+              <span>{t('predict.undo')}</span>
             </Button>
             <Button
               off={off || drive.actions.length === 0}
@@ -184,7 +188,6 @@ interface KeyOptions {
   off: boolean;
   tell: (outcome: Told) => void;
   area: { current: HTMLElement | null };
-  isOneOfMany: boolean;
 }
 
 const kArrows: Record<string, [number, number]> = {
@@ -202,14 +205,13 @@ function useKeys(options: KeyOptions): void {
     let last = -Infinity;
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.metaKey) return;
-      const { world, drive, off, tell, area, isOneOfMany } = current.current;
-      if (isOneOfMany && !area.current?.contains(event.target as Node)) return;
+      const { world, drive, off, tell, area } = current.current;
       const isUndo = event.key === 'Backspace' || (event.ctrlKey && event.key.toLowerCase() === 'z');
       if (event.ctrlKey && !isUndo) return;
       const shift = kArrows[event.key];
-      const isSpace = (event.key === ' ' || event.key === 'Enter') && !isPressing(event);
+      const isSpace = event.key === ' ' && !isPressing(event);
       const isOnBoard = area.current?.contains(event.target as Node) || event.target === document.body;
-      const isHeading = event.target instanceof HTMLElement && event.target.matches('h1');
+      const isHeading = event.target instanceof HTMLElement && event.target.matches('h1, h2');
       if (!shift && !isUndo && !(isSpace && (isOnBoard || isHeading))) return;
       event.preventDefault(); // the page must not scroll
       if (off || (event.repeat && performance.now() - last < kRepeatMs)) return;

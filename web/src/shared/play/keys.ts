@@ -10,3 +10,16 @@ export function isPressing(event: KeyboardEvent): boolean {
   const target = event.target;
   return (event.key === 'Enter' || event.key === ' ') && target instanceof HTMLElement && target.matches('button, a, summary');
 }
+
+// Enter goes on, wherever the focus is: it presses the one primary button below a board.
+export function enterGoesOn(): () => void {
+  const pressed = (event: KeyboardEvent): void => {
+    if (event.key !== 'Enter' || event.repeat || event.defaultPrevented || isElsewhere(event) || isPressing(event)) return;
+    const next = document.querySelector<HTMLElement>('main :is(.submit, .player) .primary:not([aria-disabled])');
+    if (!next) return;
+    event.preventDefault();
+    next.click();
+  };
+  document.addEventListener('keydown', pressed);
+  return () => document.removeEventListener('keydown', pressed);
+}

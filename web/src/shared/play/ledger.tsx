@@ -1,7 +1,7 @@
 // What decides, counted: "Steps 7, Crossing rubble 1, Stopping at the charger 0". Counts, never what they are worth.
 import type { JSX } from 'preact';
 import type { Chip } from '../board/chips';
-import type { Counted, Frame, MapDomain } from '../board/types';
+import type { Counted, Frame, MapDomain, PathKind, PlayBoard } from '../board/types';
 import { capitalised, hasText, t } from '../texts';
 
 const kMost = 4; // so many are all shown from the beginning
@@ -22,17 +22,23 @@ export const rounded = (n: number): string => String(Math.round(100 * n) / 100);
 
 export interface Column {
   name: string; // "Robot"
-  kind: 'own' | 'other';
+  kind: PathKind;
   counts: number[];
   endless?: boolean[]; // what the path goes on counting for ever
 }
 
+// Whether what is counted is the name of something that this map has nowhere.
+function isAbsent({ domain: { legend = [] }, map = [] }: PlayBoard, { one }: Counted): boolean {
+  const symbols = legend.filter(({ name, parts = [] }) => name === one || parts.some((part) => part.name === one)).map(({ symbol }) => symbol);
+  return symbols.length > 0 && !map.some((row) => symbols.some((symbol) => row.includes(symbol)));
+}
+
 // While somebody moves there is one column, afterwards the robot's beside the prediction.
-export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column[] }): JSX.Element | null {
-  const counted = domain.counted ?? [];
+export function Ledger({ board, columns }: { board: PlayBoard; columns: Column[] }): JSX.Element | null {
+  const counted = board.domain.counted ?? [];
   const rows = counted
     .map((one, k) => ({ one, values: columns.map(({ counts, endless }) => (endless?.[k] ? t('ledger.endless') : rounded(counts[k] ?? 0))) }))
-    .filter(({ values }, k) => counted.length <= kMost || k === counted.length - 1 || values.some((n) => n !== '0'));
+    .filter(({ one, values }, k) => (counted.length <= kMost && !isAbsent(board, one)) || k === counted.length - 1 || values.some((n) => n !== '0'));
   if (rows.length === 0) return null;
   return (
     <table class={columns.length > 1 ? 'ledger' : 'ledger single'}>
@@ -67,11 +73,11 @@ export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column
 const shortened = (text: string): string => (text.length > 18 ? text.replace(/ steps? /, ' ') : text);
 
 // What each of two paths has more of: "+1 rubble" on one, "+2 steps" on the other.
-export function chipsOf(domain: MapDomain, robot: number[], other: number[]): Chip[] {
+export function chipsOf(domain: MapDomain, robot: number[], other: number[], kind: PathKind): Chip[] {
   return (domain.counted ?? []).flatMap((one, k): Chip[] => {
     const more = (robot[k] ?? 0) - (other[k] ?? 0);
     const n = Math.abs(more);
     if (n < 0.005) return [];
-    return [{ kind: more > 0 ? 'own' : 'other', text: shortened(`+${rounded(n)} ${n === 1 ? one.one : one.many}`) }];
+    return [{ kind: more > 0 ? 'own' : kind, text: shortened(`+${rounded(n)} ${n === 1 ? one.one : one.many}`) }];
   });
 }

@@ -4,7 +4,6 @@ import { useCallback, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Legend } from '../board/legend';
 import { played } from '../board/repeats';
 import type { Path, PlayBoard } from '../board/types';
-import { t } from '../texts';
 import { playedText } from './words';
 
 export interface Log {
@@ -27,8 +26,8 @@ export function useLog(first: string): Log {
 
 // A log of a path that is played: a sentence when the robot has taken a step.
 export function usePathLog(board: PlayBoard, legend: Legend, path: Path, step: number): Log {
-  const log = useLog(t('watch.start'));
-  const shown = useRef(0);
+  const log = useLog(playedText(board, legend, path, Math.min(step, played(path).length - 1)));
+  const shown = useRef(step);
   useLayoutEffect(() => {
     if (step === shown.current) return;
     shown.current = step;

@@ -40,13 +40,10 @@ const kIcons = {
 export function Player({ playback, primary }: { playback: Paced; primary: boolean }): JSX.Element {
   const { step, last, playing, show, toggle, speed, setSpeed } = playback;
   const current = useRef(playback);
-  const own = useRef<HTMLDivElement>(null);
   current.current = playback; // keys may come faster than effects
   useLayoutEffect(() => {
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.ctrlKey || event.metaKey) return;
-      const isAlone = document.querySelectorAll('.player').length === 1; // else keys are for the board that they are pressed on
-      if (!isAlone && !own.current?.closest('.board-screen')?.contains(event.target as Node)) return;
       const now = current.current;
       if (event.key === 'ArrowRight') now.show(now.step + 1);
       else if (event.key === 'ArrowLeft') now.show(now.step - 1);
@@ -58,7 +55,7 @@ export function Player({ playback, primary }: { playback: Paced; primary: boolea
   }, []);
   const what = playing ? 'pause' : step === last ? 'again' : 'play';
   return (
-    <div class="player" role="group" aria-label={t('player.group')} ref={own}>
+    <div class="player" role="group" aria-label={t('player.group')}>
       <div class="buttons">
         <Button primary={primary} class="play" onClick={toggle}>
           <Icon path={kIcons[what]} />

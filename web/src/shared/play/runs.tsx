@@ -132,7 +132,7 @@ function OneRun({ board, legend, runs, run, title, choice, isStill, isOpen, prim
       </div>
       <div class="side">
         {reason}
-        <Ledger domain={board.domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
+        <Ledger board={board} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
         {!isStill && <Player playback={playback} primary={primary ?? false} />}
         {choice}
         {children}

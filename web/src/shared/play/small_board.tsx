@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { kFew } from '../board/board';
 import type { Legend } from '../board/legend';
 import { OverviewMap } from '../board/overview';
-import type { Path, PlayBoard } from '../board/types';
+import type { Path, PathKind, PlayBoard } from '../board/types';
 import { actionLabel, listed } from '../texts';
 import { BoardPane } from './board_pane';
 import { boardText } from './words';
@@ -13,12 +13,14 @@ interface Props {
   board: PlayBoard;
   legend: Legend;
   path: Path;
+  kind?: PathKind;
   other?: Path | null;
+  otherKind?: PathKind;
   at?: number | null; // where they separate
   runs?: Run[] | undefined; // where chance has a part: in place of a path it is drawn where the robot means to go
 }
 
-export function SmallBoard({ board, legend, path, other, at, runs }: Props): JSX.Element {
+export function SmallBoard({ board, legend, path, kind = 'own', other, otherKind = 'other', at, runs }: Props): JSX.Element {
   if (!board.map) return <p>{listed(path.frames.flatMap(({ action }) => (action ? [actionLabel(action)] : [])))}</p>;
   const { width = 0, height = 0 } = board.domain;
   if (width > kFew || height > kFew) {
@@ -33,7 +35,8 @@ export function SmallBoard({ board, legend, path, other, at, runs }: Props): JSX
               frame={board.start}
               own={path.frames}
               other={other?.frames ?? []}
-              kind="own"
+              kind={kind}
+              otherKind={otherKind}
               label={boardText(board, legend, board.start)}
             />
           </div>
@@ -51,11 +54,11 @@ export function SmallBoard({ board, legend, path, other, at, runs }: Props): JSX
       frames={path.frames}
       step={0}
       walked={0}
-      trail="own"
+      trail={kind}
       whole
       isSmall
       closedAt={path.repeats_from === undefined ? undefined : path.frames.length - 1}
-      {...(other && at !== undefined && at !== null ? { other: other.frames, decisive: { frame: at } } : {})}
+      {...(other && at !== undefined && at !== null ? { other: other.frames, otherKind, decisive: { frame: at } } : {})}
     />
   );
 }

@@ -140,16 +140,24 @@ export class World {
 
   // The shortest way of moves to a cell, going straight on where ways are equally long; null: none.
   route(from: number, [column, row]: Place): number[] | null {
+    const isThere = (state: number): boolean => {
+      const [x, y] = this.frame(state).robot ?? [0, 0];
+      return x === column && y === row;
+    };
+    return this.shortest(from, isThere, this.actions.filter(({ shift }) => shift !== null));
+  }
+
+  // The fewest actions to such a state.
+  shortest(from: number, isIt: (state: number) => boolean, actions: Action[] = this.actions): number[] | null {
     const before = new Map<number, { state: number; action: number } | null>([[from, null]]);
-    const moves = this.actions.filter(({ shift }) => shift !== null).map(({ index }) => index);
+    const all = actions.map(({ index }) => index);
     let edge = [from];
     while (edge.length > 0) {
       const next: number[] = [];
       for (const state of edge) {
-        const [x, y] = this.frame(state).robot ?? [0, 0];
-        if (x === column && y === row) return this.back(before, state);
+        if (isIt(state)) return this.back(before, state);
         const last = before.get(state)?.action;
-        const order = last === undefined ? moves : [last, ...moves.filter((move) => move !== last)];
+        const order = last === undefined ? all : [last, ...all.filter((action) => action !== last)];
         for (const action of order) {
           const to = this.after(state, action);
           if (to === null || before.has(to)) continue;
