@@ -35,7 +35,10 @@ export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
   const [filter, setFilter] = useState<Filter>('all');
   const [text, setText] = useState('');
   const now = useNow();
-  const shown = view.rooms.filter((room) => passes(room, filter) && matches(room, text));
+  // Those that need somebody come first.
+  const shown = view.rooms
+    .filter((room) => passes(room, filter) && matches(room, text))
+    .sort((a, b) => Number(attention(b) !== null) - Number(attention(a) !== null));
   const people = view.rooms.flatMap(({ seats }) => seats).filter(({ kind }) => kind === 'person');
   const here = people.filter(({ presence }) => presence === 'here').length;
   return (

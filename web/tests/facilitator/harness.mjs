@@ -10,6 +10,14 @@ export const openTab = (page, name) => page.click(`nav button:text-is("${name}")
 export async function openRoom(page, title) {
   await openTab(page, 'Rooms');
   await page.click(`.rooms button:text-is("${title}")`);
+  await openDeep(page);
+}
+
+// What is for researchers.
+export async function openDeep(page) {
+  const deep = page.locator('.deep');
+  await deep.waitFor();
+  if (!(await deep.evaluate((box) => box.open))) await deep.locator('summary').first().click();
   await page.waitForSelector('.live .globe svg');
 }
 

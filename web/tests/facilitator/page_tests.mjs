@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { kTokens } from '../facilitator_mock.mjs';
-import { openTab, openRoom } from './harness.mjs';
+import { openDeep, openTab, openRoom } from './harness.mjs';
 
 export function pageTests({ withPage, violations, shoot }) {
   it('takes the token out of the address and keeps it for a reload', async () => {
@@ -10,7 +10,7 @@ export function pageTests({ withPage, violations, shoot }) {
       await openRoom(page, 'Room A2');
       assert.equal(await page.evaluate(() => location.href), `${mock.origin}/f`);
       await page.reload();
-      await page.waitForSelector('.live .globe');
+      await openDeep(page);
       assert.match(await page.textContent('.room-bar'), /Room A2/);
       assert.ok(mock.requests.every((request) => !request.includes(kTokens.facilitator)), 'the token is in a request');
     });
@@ -63,7 +63,7 @@ export function pageTests({ withPage, violations, shoot }) {
       }
       await openTab(page, 'Rooms');
       await page.click('.rooms button >> nth=0');
-      await page.waitForSelector('.live .globe');
+      await openDeep(page);
       seen += await page.textContent('body');
       assert.equal(await page.locator('.room-buttons').count(), 0);
       await page.click('button.seat >> nth=0');

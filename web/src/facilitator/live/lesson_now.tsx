@@ -40,7 +40,8 @@ function choicesOf(lesson: LessonNow): Choice[] {
   ];
 }
 
-export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined; period: number }): JSX.Element {
+// `isDeep`: for researchers.
+export function LessonPanel({ lesson, period, isDeep }: { lesson: LessonNow | undefined; period: number; isDeep: boolean }): JSX.Element {
   const [picked, setPicked] = useState('d0');
   if (!lesson) {
     return (
@@ -64,19 +65,19 @@ export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined;
           ))}
         </div>
       </div>
-      {choice && <Shown key={`${period}/${choice.id}`} choice={choice} />}
+      {choice && <Shown key={`${period}/${choice.id}`} choice={choice} isDeep={isDeep} />}
       <div class="why-text">
         <p>
           <b>Why:</b> {upperFirst(lesson.why)}
           {!lesson.why.includes(lesson.source) && <span class="source"> Source: {lesson.source}.</span>}
         </p>
       </div>
-      <RunnersUp lesson={lesson} />
+      {isDeep && <RunnersUp lesson={lesson} />}
     </section>
   );
 }
 
-function Shown({ choice }: { choice: Choice }): JSX.Element {
+function Shown({ choice, isDeep }: { choice: Choice; isDeep: boolean }): JSX.Element {
   const { shown, isTest } = choice;
   const { domain, legend } = useDrawing(shown.board);
   const frames = played(shown);
@@ -111,7 +112,7 @@ function Shown({ choice }: { choice: Choice }): JSX.Element {
         {board.map && <Player frames={frames} playback={playback} what={choice.label} end={endText(shown)} />}
       </div>
       <div class="shown-facts">
-        {shown.gain !== undefined && !isTest && (
+        {shown.gain !== undefined && !isTest && isDeep && (
           <p>
             <Explained term="gain">Gain</Explained> <b>{`${shown.gain.toFixed(2)}\u00d7`}</b>
           </p>

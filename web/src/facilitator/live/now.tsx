@@ -1,4 +1,4 @@
-// What a facilitator wants to know first: who is away, who is stuck, and how long it will still take.
+// What a facilitator wants to know first: who needs help, who is waited for, and how long it will still take.
 import type { JSX } from 'preact';
 import { duration } from '../../shared/duration';
 import { minutesText, useNow } from '../clock';
@@ -9,6 +9,7 @@ import { counted, isOver, seatTitle } from '../words';
 const kSlowest = 45_000; // ms; nobody is stuck before
 const kTimes = 3; // so many times as long as the group usually takes for an answer
 const kWrong = 3; // answers in a row
+const kMany = 6; // answers of which not half were right
 
 function usualMs(answers: Answer[]): number {
   const times = answers.map(({ ms }) => ms).sort((a, b) => a - b);
@@ -25,7 +26,10 @@ function trouble(seat: SeatRow, answers: Answer[], now: number): string | null {
     return `${seat.stage === 'predict' ? 'answering' : 'watching'} for ${duration(since)}`;
   }
   const own = answers.filter((answer) => answer.seat === seat.seat).slice(-kWrong);
-  return own.length === kWrong && own.every(({ right }) => !right) ? `the last ${kWrong} answers were wrong` : null;
+  if (own.length === kWrong && own.every(({ right }) => !right)) return `the last ${kWrong} answers were wrong`;
+  const all = answers.filter((answer) => answer.seat === seat.seat);
+  const right = all.filter((answer) => answer.right).length;
+  return all.length >= kMany && 2 * right < all.length ? `${right} of ${all.length} answers right` : null;
 }
 
 function forecastText({ minutes_low, minutes_high, periods, done_within }: Forecast): string {
@@ -42,20 +46,19 @@ export function Now({ room, detail, study }: { room: RoomRow; detail: RoomDetail
     const why = trouble(seat, detail.answers, now);
     return why ? [`${seatTitle(seat)}: ${why}`] : [];
   });
+  const isWaiting = room.seats.some(({ stage }) => stage === 'wait');
+  const slow = room.seats.filter((seat) => isWaiting && seat.presence === 'here' && !isOver(seat) && seat.stage !== 'wait');
+  const waited = [...away.map((seat) => `${seatTitle(seat)}, away for ${duration(now - seat.since_ms)} (of ${study.grace_s} s)`), ...slow.map(seatTitle)];
   const { forecast } = room;
   return (
     <dl class="now-facts">
-      <div class={away.length > 0 ? 'alarm' : undefined}>
-        <dt>Away</dt>
-        <dd>
-          {away.length === 0
-            ? 'nobody'
-            : away.map((seat) => `${seatTitle(seat)} for ${duration(now - seat.since_ms)} (of ${study.grace_s} s)`).join('; ')}
-        </dd>
-      </div>
       <div class={stuck.length > 0 ? 'alarm' : undefined}>
         <dt>Needs help</dt>
         <dd>{stuck.length === 0 ? 'nobody' : stuck.join('; ')}</dd>
+      </div>
+      <div class={away.length > 0 ? 'alarm' : undefined}>
+        <dt>Waited for</dt>
+        <dd>{waited.length === 0 ? 'nobody' : waited.join('; ')}</dd>
       </div>
       <div>
         <dt>
