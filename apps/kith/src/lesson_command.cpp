@@ -117,15 +117,15 @@ void declare(OptionList& list, LessonOptions& options) {
   list.json();
   list.flag("--playground", options.is_playground,
             "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
-  list.flag("--exam", options.has_exam, "An exam at the end, as group.exam of a study");
+  list.flag("--exam", options.has_exam, "An exam at the end, as group.exam of a study; such a page adapts");
   list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
 }
 
 int run(const LessonOptions& options, Console& console) {
   const bool is_package = std::filesystem::path{options.out}.extension() == ".zip";
-  const bool adapts = options.is_adaptive || options.is_playground || is_package || !options.origins.empty() ||
-                      !options.set.empty() || is_study(options.what);
+  const bool adapts = options.is_adaptive || options.has_exam || options.is_playground || is_package ||
+                      !options.origins.empty() || !options.set.empty() || is_study(options.what);
   if (!adapts) return show_curriculum({options.what, options.knowing, options.out, options.seed}, console);
   if (options.out.empty() || console.json())
     refuse("a lesson that adapts is a page", "write it with -o lesson.html or -o lesson.zip, without --json");

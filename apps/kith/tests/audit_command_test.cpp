@@ -163,5 +163,12 @@ TEST(ExamCommand, NeedsAFolderOrADomain) {
   EXPECT_EQ(run_kith({"audit", "results", "--exam", "item-delivery"}).code, 2);
 }
 
+// An exam goes by what people answered, so a lesson with one is never the page without an engine.
+TEST(ExamCommand, MakesLessonsAdapt) {
+  const auto lesson = run_kith({"lesson", "item-delivery", "--exam"});
+  EXPECT_EQ(lesson.code, 2);
+  EXPECT_NE(lesson.err.find("a lesson that adapts is a page"), std::string::npos) << lesson.err;
+}
+
 }  // namespace
 }  // namespace kith::testing

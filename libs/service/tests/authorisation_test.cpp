@@ -22,14 +22,14 @@ struct Expected {
   const char* allowed;
 };
 constexpr Expected kMessages[] = {
-    {"beat", "-pof"},        {"consent", "-p--"}, {"checked", "-p--"},   {"name", "-p--"},
-    {"screen", "-p--"},      {"watched", "-p--"}, {"draft", "-p--"},     {"answer", "-p--"},
-    {"discuss", "-p--"},     {"explore", "-p--"}, {"continue", "-p--"},  {"questions", "-p--"},
-    {"leave", "-p--"},       {"start", "---f"},   {"pause", "---f"},     {"resume", "---f"},
-    {"extend", "---f"},      {"message", "---f"}, {"readmit", "---f"},   {"simulate", "---f"},
-    {"strategy", "---f"},    {"end", "---f"},     {"room-make", "---f"}, {"room-select", "--of"},
-    {"link-revoke", "---f"}, {"join", "----"},    {"away", "----"},      {"present", "----"},
-    {"lesson", "----"},      {"", "----"}};
+    {"beat", "-pof"},        {"consent", "-p--"},     {"checked", "-p--"},  {"name", "-p--"},
+    {"screen", "-p--"},      {"watched", "-p--"},     {"draft", "-p--"},    {"answer", "-p--"},
+    {"discuss", "-p--"},     {"explore", "-p--"},     {"continue", "-p--"}, {"questions", "-p--"},
+    {"examine", "-p--"},     {"leave", "-p--"},       {"start", "---f"},    {"pause", "---f"},
+    {"resume", "---f"},      {"extend", "---f"},      {"message", "---f"},  {"readmit", "---f"},
+    {"simulate", "---f"},    {"strategy", "---f"},    {"end", "---f"},      {"room-make", "---f"},
+    {"room-select", "--of"}, {"link-revoke", "---f"}, {"join", "----"},     {"away", "----"},
+    {"present", "----"},     {"lesson", "----"},      {"", "----"}};
 constexpr Expected kRoutes[] = {
     {"GET /api/health", "npof"},    {"POST /api/join", "npof"},        {"GET /api/texts", "npof"},
     {"GET /api/world", "-pof"},     {"GET /api/export", "---f"},       {"GET /api/qr", "---f"},

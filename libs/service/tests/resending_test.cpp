@@ -48,7 +48,8 @@ const char* name_of(Loss loss) {
 std::vector<std::string> history_after(const Kind& kind, bool is_facilitator, Loss loss) {
   Group group{std::string{testing::kQuestions} +
               "ask_name = true\nscreening = { tests = 1 }\ntime = { predict_s = 600, leave_after_s = 0 }\n"
-              "dropout = { policy = \"continue-now\" }\n"};
+              "dropout = { policy = \"continue-now\" }\n" +
+              (kind.type == std::string{"examine"} ? "exam = true\n" : "")};
   auto& [scratch, stage, solver, people] = group;
   EXPECT_TRUE(kind.reach(group)) << kind.type;
   const auto facilitator = is_facilitator ? stage.facilitator() : nullptr;
@@ -113,6 +114,7 @@ const std::vector<Kind>& kinds_of_participants() {
        }},
       {"answer", until("predict"), next_body},
       {"continue", until("feedback")},
+      {"examine", until("exam"), next_body},
       {"questions", until("questions"), next_body},
       {"leave", until("watch")},
   };

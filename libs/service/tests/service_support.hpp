@@ -244,7 +244,7 @@ class Page {
     return std::pair{std::string{"consent"}, Json{{"accept", true}, {"version", view["consent"]["version"]}}};
   if (stage == "check") return std::pair{std::string{"checked"}, Json::object()};
   if (stage == "watch") return std::pair{std::string{"watched"}, Json{{"demo", view["watch"]["index"]}}};
-  if (stage == "predict" || stage == "screening") {
+  if (stage == "predict" || stage == "screening" || stage == "exam") {
     const auto& predict = view["predict"];
     const auto world = predict["world"].get<std::string>();
     const auto start = predict["start"].get<std::size_t>();
@@ -253,6 +253,7 @@ class Page {
     for (std::size_t i = 0; i < path.size(); ++i) keys.push_back({path[i], 200 * (i + 1)});
     Json body{{"test", predict["index"]}, {"actions", path}, {"ms", 200 * path.size()}};
     if (stage == "screening") return std::pair{std::string{"screen"}, body};
+    if (stage == "exam") return std::pair{std::string{"examine"}, body};
     body["keys"] = keys;
     return std::pair{std::string{"answer"}, body};
   }
