@@ -9,24 +9,10 @@
 #include "kith/analysis/analysis.hpp"
 #include "kith/explain/words.hpp"
 #include "parameters.hpp"
+#include "sentences.hpp"
 
 namespace kith::detail {
 namespace {
-
-std::string counted(std::size_t n, const std::string& one, const std::string& many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-std::string counted(std::size_t n, const std::string& noun) { return counted(n, noun, noun + "s"); }
-
-// "a, b and c"
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += words[i];
-  }
-  return text;
-}
 
 // Collects what is cited, in the order of first use.
 class Citations {
@@ -105,7 +91,7 @@ class Paragraph {
     for (const auto& before : run_.manifest.value("grown", std::vector<std::string>{}))
       say("Teams were added to a run that had " + before + ".");
 
-    say("The design crossed " + counted(names.size(), "teaching strategy", "teaching strategies") +
+    say("The design crossed " + how_many(names.size(), "teaching strategy", "teaching strategies") +
         cite_("jayaraman2024") + ", " + listed(names) + ", with " +
         counted(spec_.compositions.size(), "team composition") + ", " + listed(spec_.compositions) +
         (types.empty() ? "" : " (" + types + ")") + ", at " + counted(spec_.replicates, "team") + " per cell.");

@@ -9,15 +9,12 @@
 #include "kith/stats/effect_size.hpp"
 #include "kith/table/column_names.hpp"
 #include "outcomes.hpp"
+#include "sentences.hpp"
 #include "session_tables.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {
 namespace {
-
-std::string how_many(std::size_t n, const std::string& one, const std::string& many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 std::string percent_of(std::size_t part, std::size_t whole) {
   return std::to_string((200 * part + whole) / (2 * whole)) + " %";

@@ -52,11 +52,4 @@ std::optional<TeamSelection> parse_selection(std::string_view text, const StudyS
   return selection;
 }
 
-std::string selections_of(const StudySpec& spec) {
-  std::string text = "group";
-  for (const auto& strategy : spec.strategies) text += ", " + strategy.name;
-  text += "; each may be followed by a composition, such as group/" + spec.compositions.front();
-  return text;
-}
-
 }  // namespace kith

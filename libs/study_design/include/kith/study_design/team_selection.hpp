@@ -25,7 +25,5 @@ struct TeamSelection {
 [[nodiscard]] std::string to_string(const TeamSelection& selection);
 /// Reads what to_string writes. Nothing if the study has no such teams.
 [[nodiscard]] std::optional<TeamSelection> parse_selection(std::string_view text, const StudySpec& spec);
-/// The words that a selection of this study may begin with, for messages.
-[[nodiscard]] std::string selections_of(const StudySpec& spec);
 
 }  // namespace kith
