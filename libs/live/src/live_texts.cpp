@@ -21,7 +21,7 @@ void fill_in_texts(GroupOptions& group, const Domain& domain) {
     group.consent_text = {
         "You will watch a simulated robot, answer questions about what it would do, and hear whether you were right.",
         "Taking part is voluntary. You may stop at any time without giving a reason."};
-    if (group.dropout.without_reserve() == DropoutPolicy::kSimulate) {
+    if (group.dropout.policy == DropoutPolicy::kSimulate) {
       group.consent_text.emplace_back("If somebody in your group stops early, a computer program may take that place.");
     }
   }

@@ -254,11 +254,8 @@ class ParticipantPage {
 
   [[nodiscard]] Json lobby_of(std::size_t present, std::size_t size) const {
     const auto leave_us = seat_.ready_us + room_.study.group().time.leave_after_s * kSecond;
-    return {{"present", present},
-            {"size", size},
-            {"since_ms", in_ms(seat_.ready_us)},
-            {"leave_after_ms", in_ms(leave_us)},
-            {"reserve", !seat_.member && !room_.setup.is_waiting_list}};
+    return {
+        {"present", present}, {"size", size}, {"since_ms", in_ms(seat_.ready_us)}, {"leave_after_ms", in_ms(leave_us)}};
   }
 
   [[nodiscard]] Json lobby() const {

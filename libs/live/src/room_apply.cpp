@@ -86,7 +86,6 @@ class RoomChange {
       if (number) move(*number - 1, "grouped");
     }
   }
-  void happen(const Called& e) { move(e.seat - 1, "called"); }
   // Somebody on the waiting list has a place in a group from now on.
   void move(std::size_t seat, const char* why) {
     step_.dismiss(seat, "moved", why, false);
@@ -94,7 +93,6 @@ class RoomChange {
     state_.seats[seat].query = Json{};
   }
   void happen(const Seated& e) {
-    if (e.seat > state_.seats.size()) state_.seats.emplace_back();  // and takes a place over next
     auto& person = state_.seats[e.seat - 1];
     person.status = SeatStatus::kActive;
     person.readiness = Readiness::kReady;
@@ -118,11 +116,6 @@ class RoomChange {
         step_.dismiss(*seat, "full", "started", came && study_.group().completion.pay_full);
       }
       if (e.fill) step_.seat_stand_in(m, setup_.composition[m]);
-    }
-    for (std::size_t i = 0; i < state_.seats.size(); ++i) {  // reserves who are not ready
-      const auto& seat = state_.seats[i];
-      if (seat.member || seat.status != SeatStatus::kActive || seat.readiness == Readiness::kReady) continue;
-      step_.dismiss(i, "full", "started", study_.group().completion.pay_full);
     }
     step_.begin();
   }
@@ -212,15 +205,15 @@ class RoomChange {
       state_.seats[seat].status = SeatStatus::kDropped;
       return;
     }
-    if (!e.by) {
+    if (!e.type) {
       state_.seats[seat].status = SeatStatus::kDropped;
       state_.seats[seat].in_period = false;
     } else {
       const auto member = *state_.seats[seat].member;
       step_.dismiss(seat, "replaced", "away", true);
-      take_over(member, e);
+      step_.seat_stand_in(member, e.type->front());
     }
-    after_departure(e);
+    after_departure();
   }
 
   void happen(const Left& e) {
@@ -233,28 +226,16 @@ class RoomChange {
         person.readiness == Readiness::kReady && waited_us >= study_.group().time.leave_after_s * kSecond;
     step_.dismiss(seat, "ended", "left", state_.phase != RoomPhase::kLobby || waited);
     if (!is_running(state_) || !held) return;
-    if (e.by) take_over(*member, e);
-    after_departure(e);
+    if (e.type) step_.seat_stand_in(*member, e.type->front());
+    after_departure();
   }
 
-  // By a reserve, or by a stand-in.
-  template <typename Departure>
-  void take_over(std::size_t member, const Departure& e) {
-    if (e.type) {
-      step_.seat_stand_in(member, e.type->front());
-    } else {
-      step_.seat_reserve(*e.by - 1, member);
-    }
-  }
-
-  template <typename Departure>
-  void after_departure(const Departure& e) {
+  void after_departure() {
     const auto& dropout = study_.group().dropout;
-    const bool has_reserve = e.by && !e.type;
-    if (dropout.without_reserve() == DropoutPolicy::kEndGroup && !has_reserve) {
+    if (dropout.policy == DropoutPolicy::kEndGroup) {
       return step_.end("member-left", "Somebody in your group had to stop, so the session is over for everybody.");
     }
-    const auto least = dropout.without_reserve() == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
+    const auto least = dropout.policy == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
     if (num_active_people(state_) < least) {
       step_.end("too-few", "Too few people are left in your group to go on.");
     }

@@ -92,11 +92,7 @@ class RoomClock {
         continue;
       }
       Dropped dropped{.seat = i + 1, .policy = std::string{name_of(policy)}};
-      const auto reserve = first_reserve(state_);
-      if (runs && policy == DropoutPolicy::kReplaceFromPool && reserve) {
-        dropped.by = *reserve + 1;
-      } else if (runs && group_.dropout.without_reserve() == DropoutPolicy::kSimulate &&
-                 num_active_people(state_) > 1) {
+      if (runs && policy == DropoutPolicy::kSimulate && num_active_people(state_) > 1) {
         dropped.by = state_.seats.size() + 1;
         dropped.type = std::string{seat.type};
       }

@@ -277,12 +277,8 @@ class SeatDecider {
     if (stage_of_seat(room_, seat_) == "debrief") return nothing_to_do();
     Left left;
     if (is_running(state_)) {
-      const auto& dropout = room_.study.group().dropout;
-      const auto reserve = first_reserve(state_);
       const auto others = num_active_people(state_) - (seat_.status == SeatStatus::kActive ? 1 : 0);
-      if (dropout.policy == DropoutPolicy::kReplaceFromPool && reserve) {
-        left.by = *reserve + 1;
-      } else if (dropout.without_reserve() == DropoutPolicy::kSimulate && others > 0) {
+      if (room_.study.group().dropout.policy == DropoutPolicy::kSimulate && others > 0) {
         left.by = state_.seats.size() + 1;
         left.type = std::string{seat_.type};
       }
@@ -328,12 +324,6 @@ class ServerDecider {
       if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m);
     }
     if (room_.setup.is_waiting_list) return joined(state_.seats.size(), std::nullopt);
-    const auto waiting = std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
-      return !seat.member && seat.status == SeatStatus::kActive;
-    });
-    if (static_cast<std::size_t>(waiting) < room_.study.group().dropout.reserves) {
-      return joined(state_.seats.size(), std::nullopt);
-    }
     return refused("full", "All places in this group are taken.");
   }
 
@@ -361,35 +351,11 @@ class ServerDecider {
         Grouped{planned->cell.strategy, planned->cell.composition, planned->simulated, planned->seats, *room});
   }
 
-  [[nodiscard]] Decision ask(OfKind<Called>) const {
-    const auto seat = integer_in(command_.body, "seat", 1, static_cast<std::int64_t>(state_.seats.size()));
-    const auto room = text_in(command_.body, "room", 100);
-    const auto whose = integer_in(command_.body, "for", 1, 1000);
-    const auto type = text_in(command_.body, "type", 1);
-    const auto why = text_in(command_.body, "why", 100);
-    if (!seat || !room || !whose || !type || type->empty() || !why) {
-      return refused("bad-body", "the description of the place is incomplete");
-    }
-    const auto number = static_cast<std::size_t>(*seat);
-    if (next_for_in(room_, type->front()) != number - 1) {
-      return refused("not-now", "Somebody has come or gone since this person was chosen.");
-    }
-    return accepted(Called{number, *room, static_cast<std::size_t>(*whose), *type, *why});
-  }
-
-  // Without a member: takes over the place of somebody who drops out at the same moment.
   [[nodiscard]] Decision ask(OfKind<Seated>) const {
-    const auto given = command_.body.find("member");
-    const bool takes_over = given != command_.body.end() && given->is_null();
-    const bool is_possible =
-        takes_over ? is_running(state_) && room_.study.group().dropout.policy == DropoutPolicy::kReplaceFromPool
-                   : state_.phase == RoomPhase::kLobby;
-    if (room_.setup.is_waiting_list || !is_possible) {
+    if (room_.setup.is_waiting_list || state_.phase != RoomPhase::kLobby) {
       return refused("started", "This group has already started.");
     }
-    const auto member =
-        takes_over ? std::optional<std::int64_t>{0}
-                   : integer_in(command_.body, "member", 0, static_cast<std::int64_t>(state_.members.size()) - 1);
+    const auto member = integer_in(command_.body, "member", 0, static_cast<std::int64_t>(state_.members.size()) - 1);
     const auto version = text_in(command_.body, "version", 100);
     const auto name = text_in(command_.body, "name", kMostNameBytes);
     const auto ready = integer_in(command_.body, "ready_us", 0, now_us_);
@@ -398,11 +364,11 @@ class ServerDecider {
     if (!member || !version || !name || !ready || from == command_.body.end() || !from->is_object() || !screened) {
       return refused("bad-body", "the description of the person is incomplete");
     }
-    const auto number = takes_over ? state_.seats.size() : static_cast<std::size_t>(*member);
-    if (!takes_over && (!state_.seats[number].is_person || state_.seats[number].status != SeatStatus::kEmpty)) {
+    const auto number = static_cast<std::size_t>(*member);
+    if (!state_.seats[number].is_person || state_.seats[number].status != SeatStatus::kEmpty) {
       return refused("full", "The place is taken.");
     }
-    return accepted(Seated{number + 1, takes_over ? std::nullopt : std::optional{number}, *from, *version,
+    return accepted(Seated{number + 1, number, *from, *version,
                            collected_query(room_.study, command_.body.value("query", Json{})), *name, *screened,
                            *ready});
   }

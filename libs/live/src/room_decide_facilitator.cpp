@@ -111,7 +111,6 @@ class FacilitatorDecider {
     if (!number || !state_.seats[*number].is_person) return no_seat();
     const auto& seat = state_.seats[*number];
     if (!is_running(state_) && state_.phase != RoomPhase::kLobby) return not_now("The lessons are over.");
-    if (!seat.member) return not_now("This person waits in reserve and has no place.");
     const auto& holder = state_.members[*seat.member].seat;
     if (holder && *holder != *number) return not_now("Somebody else has the place already.");
     std::string type{seat.type};

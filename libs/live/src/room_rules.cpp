@@ -85,17 +85,6 @@ std::vector<std::vector<Answer>> revised_answers(const Room::State& state) {
   return revised;
 }
 
-std::optional<std::size_t> first_reserve(const Room::State& state) noexcept {
-  std::optional<std::size_t> first;
-  for (std::size_t i = 0; i < state.seats.size(); ++i) {
-    const auto& seat = state.seats[i];
-    if (seat.member || seat.status != SeatStatus::kActive || seat.readiness != Readiness::kReady || !seat.is_here)
-      continue;
-    if (!first || seat.ready_us < state.seats[*first].ready_us) first = i;
-  }
-  return first;
-}
-
 std::vector<bool> simulated_members(const LiveStudy& study, std::size_t members) {
   const auto& people = study.group().people;
   std::vector<bool> simulated(members, !people.empty());

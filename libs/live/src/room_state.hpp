@@ -51,7 +51,7 @@ struct BoardChoice {
 struct LiveSeat {
   bool is_person = true;
   char type = 'N';
-  std::optional<std::size_t> member;  ///< Whose place they have or had; none: a reserve.
+  std::optional<std::size_t> member;  ///< Whose place they have or had; none: on a waiting list.
   SeatStatus status = SeatStatus::kEmpty;
   Readiness readiness = Readiness::kConsent;
   std::string last_page;     ///< Of who is gone: declined, ended, replaced or full.
@@ -196,8 +196,6 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] std::optional<std::size_t> own_entry(const Room::State& state, std::size_t test, std::size_t member);
 /// What the members answer if those who have not decided keep their answers, as Session::discuss() takes it.
 [[nodiscard]] std::vector<std::vector<Answer>> revised_answers(const Room::State& state);
-/// A seat of the reserve that can take over: the one that has been ready for longest.
-[[nodiscard]] std::optional<std::size_t> first_reserve(const Room::State& state) noexcept;
 /// The address of the room's streams.
 [[nodiscard]] TeamAddress address_of(const RoomSetup& setup);
 /// Which members of a group of that size are simulated, as `group.people` says.
@@ -209,8 +207,6 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] bool has_high_estimate(const RoomParts& room, const LiveSeat& seat);
 /// Whether groups of a cell have a place for people of high or of low ability.
 [[nodiscard]] bool has_place_for(const LiveStudy& study, const LiveCell& cell, bool high);
-/// See Room::next_for(); from 0.
-[[nodiscard]] std::optional<std::size_t> next_for_in(const RoomParts& room, char type);
 /// See Room::next_group().
 [[nodiscard]] std::optional<PlannedGroup> next_group_in(const RoomParts& room, std::int64_t now_us);
 /// When the time of whoever has waited for longest is over: more groups are possible from then on. Nothing if waiting

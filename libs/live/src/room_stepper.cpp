@@ -48,14 +48,6 @@ void RoomStepper::seat_stand_in(std::size_t member, char type) {
   state_.seats.push_back(std::move(seat));
 }
 
-void RoomStepper::seat_reserve(std::size_t seat, std::size_t member) {
-  state_.seats[seat].member = member;
-  state_.seats[seat].type = setup_.composition[member];
-  state_.members[member].seat = seat;
-  state_.members[member].learner.reset();
-  state_.members[member].is_new = state_.members[member].is_newcomer = true;
-}
-
 void RoomStepper::begin() {
   state_.started_us = at_us_;
   if (study_.group().time.max_minutes > 0) {
@@ -65,16 +57,13 @@ void RoomStepper::begin() {
 }
 
 void RoomStepper::end(const std::string& reason, const std::string& text) {
-  const bool taught = state_.started_us.has_value();
   for (std::size_t i = 0; i < state_.seats.size(); ++i) {
     auto& seat = state_.seats[i];
     if (!seat.is_person || seat.status == SeatStatus::kEmpty || seat.status == SeatStatus::kGone) continue;
     if (state_.phase == RoomPhase::kQuestions && !seat.examined &&
         (seat.has_answered_questions || study_.group().questions.empty()))
       continue;  // they have finished
-    const bool is_reserve = taught && !seat.member;
-    const bool was_ready = seat.readiness == Readiness::kReady;
-    dismiss(i, is_reserve ? "full" : "ended", reason, is_reserve ? study_.group().completion.pay_full : was_ready);
+    dismiss(i, "ended", reason, seat.readiness == Readiness::kReady);
   }
   state_.end_reason = reason;
   state_.end_text = text;

@@ -29,8 +29,6 @@ class RoomStepper {
   void dismiss(std::size_t seat, const std::string& page, const std::string& why, bool gets_code);
   /// A new seat with a simulated learner takes a place.
   void seat_stand_in(std::size_t member, char type);
-  /// A reserve takes a place.
-  void seat_reserve(std::size_t seat, std::size_t member);
 
  private:
   void sync_members();

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "kith/core/error.hpp"
 #include "kith/live/screening.hpp"
 #include "room_state.hpp"
 
@@ -113,15 +112,6 @@ std::optional<PlannedGroup> next_group_in(const RoomParts& room, std::int64_t no
   return std::nullopt;
 }
 
-std::optional<std::size_t> next_for_in(const RoomParts& room, char type) {
-  if (!room.setup.is_waiting_list || room.state.phase != RoomPhase::kLobby) return std::nullopt;
-  const auto people = people_waiting(room.state);
-  const auto found = std::find_if(people.begin(), people.end(), [&](std::size_t seat) {
-    return has_high_estimate(room, room.state.seats[seat]) == wants_high(room.study, type);
-  });
-  return found == people.end() ? std::nullopt : std::optional{*found};
-}
-
 std::optional<std::int64_t> last_call_in(const RoomParts& room) {
   if (!room.setup.is_waiting_list || room.state.phase != RoomPhase::kLobby || !has_limit(room)) return std::nullopt;
   const auto people = people_waiting(room.state);
@@ -150,44 +140,6 @@ std::optional<PlannedGroup> Room::next_group(std::int64_t now_us) const {
 }
 
 std::optional<std::int64_t> Room::last_call() const { return last_call_in({*study_, *setup_, *state_}); }
-
-std::optional<std::size_t> Room::next_for(char type) const {
-  const auto seat = next_for_in({*study_, *setup_, *state_}, type);
-  return seat ? std::optional{*seat + 1} : std::nullopt;
-}
-
-std::optional<Vacancy> Room::vacancy(const RoomEvent& departure) const {
-  const auto& state = *state_;
-  const auto dropout = study_->group().dropout;
-  if (dropout.policy != DropoutPolicy::kReplaceFromPool || !study_->seats_by_ability() || !is_running(state)) return {};
-  const auto* dropped = departure.get<happening::Dropped>();
-  const auto* left = departure.get<happening::Left>();
-  if (dropped == nullptr && left == nullptr) return {};
-  const bool has_reserve = dropped != nullptr ? dropped->by && !dropped->type : left->by && !left->type;
-  const auto seat = dropped != nullptr ? dropped->seat : seat_of_actor(departure.actor).value_or(0);
-  if (has_reserve || seat == 0 || seat > state.seats.size()) return {};
-  const auto& member = state.seats[seat - 1].member;
-  if (!member || state.members[*member].seat != seat - 1) return {};
-  return Vacancy{seat, setup_->composition[*member], dropped != nullptr ? "away" : "left"};
-}
-
-std::vector<RoomEvent> Room::replaced(const RoomEvent& departure, Json person, std::int64_t now_us) const {
-  person["member"] = nullptr;
-  auto decision = decide({"server", std::string{happening::Seated::kKind.command}, std::move(person), {}},
-                         std::max(now_us, departure.at_us));
-  if (decision.refusal) throw Error{ErrorKind::kMismatch, decision.refusal->text};
-  auto events = std::move(decision.events);
-  auto second = departure;
-  second.seq = events.front().seq + 1;
-  second.at_us = events.front().at_us;
-  const auto seat = std::get<happening::Seated>(events.front().what).seat;
-  if (auto* dropped = std::get_if<happening::Dropped>(&second.what))
-    std::tie(dropped->by, dropped->type) = std::tuple{seat, std::nullopt};
-  if (auto* left = std::get_if<happening::Left>(&second.what))
-    std::tie(left->by, left->type) = std::tuple{seat, std::nullopt};
-  events.push_back(std::move(second));
-  return events;
-}
 
 Json Room::person_for(std::size_t seat) const {
   const auto& person = state_->seats.at(seat - 1);

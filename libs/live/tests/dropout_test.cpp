@@ -12,8 +12,6 @@ using testing::live_study;
 using testing::Play;
 
 constexpr double kGrace = 20.0;  // seconds
-// The policy "replace-from-pool" where people wait on a waiting list and not in reserve.
-constexpr const char* kFromList = "replace-from-waiting-list";
 
 struct DropoutCase {
   std::string policy;
@@ -66,11 +64,7 @@ class Dropouts : public ::testing::TestWithParam<const char*> {
       return;
     }
     play.join(play.room().has_free_seat() ? 3 : 0);
-    if (is_replacing(play)) play.join(1);
-    for (std::size_t i = 1; i <= (is_replacing(play) ? 4u : 3u); ++i) {
-      if (i == 3) continue;
-      play.get_ready(i);
-    }
+    for (std::size_t i = 1; i < 3; ++i) play.get_ready(i);
     if (stage == "wait-lesson") play.set_teacher(false);
     play.get_ready(3);
     if (stage == "wait-lesson") return;
@@ -103,19 +97,13 @@ class Dropouts : public ::testing::TestWithParam<const char*> {
       ASSERT_EQ(play.seat(i, "screen", {{"test", t}, {"actions", Json::array()}, {"ms", 1}}), "");
     }
   }
-  static bool is_replacing(const Play& play) { return play.study().group().dropout.reserves > 0; }
 
   // @param replays  whether the room is taught once more at the end, which takes most of the time.
   static void check(const DropoutCase& tested, bool replays) {
     const auto& [policy, stage, leavers, after_grace] = tested;
-    const bool is_from_list = policy == kFromList;
-    const bool is_replaced = is_from_list || policy == "replace-from-pool";
-    const std::string reserves = is_replaced && !is_from_list ? ", reserves = 1" : "";
-    Play play{live_study("[group]\ndropout = { policy = \"" + (is_replaced ? "replace-from-pool" : policy) +
-                         "\", grace_s = 20" + reserves + " }\nscreening = { tests = 1" +
-                         (is_from_list ? ", high = \"P\"" : "") +
-                         " }\nquestions = [{ id = \"a\", kind = \"text\", text = \"?\" }]\n")};
-    if (is_from_list) play.set_waiting(1);
+    Play play{live_study("[group]\ndropout = { policy = \"" + policy +
+                         "\", grace_s = 20 }\nscreening = { tests = 1 }\n"
+                         "questions = [{ id = \"a\", kind = \"text\", text = \"?\" }]\n")};
     bring_to(play, stage, leavers);
     if (HasFatalFailure()) return;
     const bool in_lobby = stage == "consent" || stage == "check" || stage == "screening" || stage == "lobby";
@@ -145,14 +133,14 @@ class Dropouts : public ::testing::TestWithParam<const char*> {
       for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(play.room().stage_of(i), before[i - 1]) << i;
       const bool done = leavers == 3;  // nobody is waited for
       EXPECT_EQ(play.room().stage(), done ? RoomStage::kEnded : RoomStage::kQuestions);
-    } else if (policy == "end-group" || (leavers == 3 && !is_replaced)) {
+    } else if (policy == "end-group" || leavers == 3) {
       EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
       const auto third = play.room().stage_of(3);
       EXPECT_TRUE(third == "ended" || third == "replaced") << third;
       EXPECT_TRUE(play.room().view({Viewer::Role::kParticipant, 3}, play.now())["end"].contains("code"));
     } else {
       EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
-      EXPECT_EQ(play.room().stage_of(1), policy == "simulate" || is_replaced ? "replaced" : "wait");
+      EXPECT_EQ(play.room().stage_of(1), policy == "simulate" ? "replaced" : "wait");
       EXPECT_NE(play.room().stage_of(3), "replaced");  // active members are never removed
     }
 
@@ -196,8 +184,7 @@ TEST_P(DropoutsSlow, ReplayFromEveryState) {
   }
 }
 
-constexpr const char* kPolicies[] = {
-    "pause-then-continue", "continue-now", "replace-from-pool", kFromList, "simulate", "end-group"};
+constexpr const char* kPolicies[] = {"pause-then-continue", "continue-now", "simulate", "end-group"};
 INSTANTIATE_TEST_SUITE_P(R18, Dropouts, ::testing::ValuesIn(kPolicies), name_of_policy);
 INSTANTIATE_TEST_SUITE_P(R18, DropoutsSlow, ::testing::ValuesIn(kPolicies), name_of_policy);
 

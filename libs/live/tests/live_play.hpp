@@ -98,7 +98,7 @@ class Play {
     commands_.push_back({actor, type, std::move(body), "id"});
     const auto decision = room_.decide(commands_.back(), now_us_);
     if (decision.refusal) return decision.refusal->reason;
-    for (const auto& event : decision.events) happen(event);
+    for (const auto& event : decision.events) apply(event);
     settle();
     return {};
   }
@@ -129,7 +129,7 @@ class Play {
       const auto due = room_.due(now_us_);
       const auto task = teacher_works_ ? room_.teaching() : std::nullopt;
       if (!due.empty()) {
-        for (const auto& event : due) happen(event);
+        for (const auto& event : due) apply(event);
       } else if (task) {
         const auto& lesson = taught(*task);
         apply(room_.taught(lesson, now_us_), &lesson);
@@ -141,19 +141,6 @@ class Play {
   void set_teacher(bool works) {
     teacher_works_ = works;
     settle();
-  }
-
-  /// So many people are on a waiting list whom every place is for.
-  void set_waiting(std::size_t n) { num_waiting_ = n; }
-  [[nodiscard]] std::size_t num_waiting() const { return num_waiting_; }
-  /// What the room is told of somebody from a waiting list.
-  [[nodiscard]] Json person_on_list(std::size_t seat) const {
-    return {{"from", {{"room", "r9"}, {"seat", seat}}},
-            {"version", study_->group().consent_version},
-            {"query", Json::object()},
-            {"name", ""},
-            {"screened", std::vector<bool>(study_->screening.size(), true)},
-            {"ready_us", now_us_}};
   }
 
   void join(std::size_t n) {
@@ -266,12 +253,6 @@ class Play {
   void pass(double seconds) { now_us_ += static_cast<std::int64_t>(seconds * 1e6); }
 
  private:
-  // Somebody from the waiting list takes over where that is possible.
-  void happen(const RoomEvent& event) {
-    if (num_waiting_ == 0 || !room_.vacancy(event)) return apply(event);
-    for (const auto& one : room_.replaced(event, person_on_list(num_waiting_--), now_us_)) apply(one);
-  }
-
   // Equal keys mean equal lessons, so plays of the same study share them; a replay chooses its own. Studies are kept:
   // of one that was freed, the next would take the address and with it the lessons.
   const TaughtLesson& taught(const TeachingTask& task) {
@@ -288,7 +269,6 @@ class Play {
   std::vector<RoomCommand> commands_;
   std::int64_t now_us_ = 1'700'000'000'000'000;
   bool teacher_works_ = true;
-  std::size_t num_waiting_ = 0;
 };
 
 /// What the person in a seat sees now.

@@ -46,12 +46,10 @@ struct Tally {
 // Random commands, invalid ones among them, with time going by: nothing throws, a refused command changes nothing, and
 // the state is that of the accepted events, replayed with a fresh cache.
 void play_at_random(std::uint64_t first, std::uint64_t last, Tally& tally) {
-  const std::vector<std::string> policies{"pause-then-continue", "continue-now", "replace-from-pool", "simulate",
-                                          "end-group"};
+  const std::vector<std::string> policies{"pause-then-continue", "continue-now", "simulate", "end-group"};
   std::vector<std::shared_ptr<const LiveStudy>> studies;
   for (const auto& policy : policies) {
     studies.push_back(live_study("[group]\ndropout = { policy = \"" + policy + "\", grace_s = 15" +
-                                 (policy == "replace-from-pool" ? ", reserves = 1" : "") +
                                  " }\ntime = { watch_s = 200, feedback_s = 300 }\n"
                                  "questions = [{ id = \"a\", kind = \"text\", text = \"?\" }]\n"));
   }

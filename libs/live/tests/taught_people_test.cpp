@@ -21,38 +21,6 @@ std::vector<TaughtPerson> people_of(Play& play) {
   return taught.all(room);
 }
 
-std::vector<std::size_t> numbers_of(const TaughtPerson& person) {
-  std::vector<std::size_t> numbers;
-  for (const auto& period : person.periods) numbers.push_back(period.period);
-  return numbers;
-}
-
-TEST(TaughtPeople, AreToldApartThoughTheyHadTheSamePlace) {
-  Play play{live_study("[group]\ndropout = { policy = \"replace-from-pool\", grace_s = 20, reserves = 1 }\n")};
-  play.join(4);
-  for (const std::size_t i : {1u, 2u, 4u, 3u}) play.get_ready(i);
-  while (play.room().session().periods() < 2) play.play_on({1, 2, 3}, false, 1);
-  play.play_on({1, 2, 3}, false, 1);  // to the next lesson
-  ASSERT_EQ(play.seat(2, "leave"), "");
-  while (play.room().session().periods() < 4) play.play_on({1, 3, 4}, false, 1);
-
-  const auto people = people_of(play);
-  ASSERT_EQ(people.size(), 4u);
-  EXPECT_EQ(people[0].seat, 1u);
-  EXPECT_EQ(numbers_of(people[0]), (std::vector<std::size_t>{1, 2, 3, 4}));
-  EXPECT_EQ(people[1].member, 1u);
-  EXPECT_EQ(people[1].seat, 2u);
-  EXPECT_EQ(people[2].member, 1u);
-  EXPECT_EQ(people[2].seat, 4u);
-  const auto leaver = numbers_of(people[1]), successor = numbers_of(people[2]);
-  ASSERT_FALSE(leaver.empty());
-  ASSERT_FALSE(successor.empty());
-  EXPECT_EQ(leaver, (std::vector<std::size_t>{1, 2}));
-  EXPECT_GT(successor.front(), 2u);
-  EXPECT_EQ(successor.back(), 4u);
-  for (const auto& person : people) EXPECT_TRUE(person.is_person);
-}
-
 TEST(TaughtPeople, KeepTheAnswersThatTheyGaveBeforeTheyLeft) {
   Play play{live_study("[group]\ndropout = { policy = \"simulate\" }\n")};
   play.start(3);

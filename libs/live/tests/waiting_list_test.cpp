@@ -244,7 +244,6 @@ TEST_F(WaitingList, ShowsEverybodyTheSame) {
   EXPECT_EQ(page(p), page(a));
   EXPECT_EQ(page(p)["lobby"]["present"], 2);
   EXPECT_EQ(page(p)["lobby"]["size"], 3);
-  EXPECT_EQ(page(p)["lobby"]["reserve"], false);
 }
 
 TEST_F(WaitingList, ShowsFacilitatorsWhoWaitsWithTheirEstimates) {

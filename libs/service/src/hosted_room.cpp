@@ -96,21 +96,6 @@ void HostedRoom::ask(RoomCommand command, Done done, StoreBatch with) {
   advance();
 }
 
-void HostedRoom::ask_when_ready(std::function<std::optional<Request>(const Room& room)> make, Done done) {
-  asked_.push_back({.command = {}, .done = std::move(done), .with = {}, .make = std::move(make)});
-  advance();
-}
-
-void HostedRoom::fill(std::vector<RoomEvent> events, TeachingCache& cache) {
-  if (!saving_) return;  // the service has stopped
-  saving_->events = std::move(events);
-  on_saved(true, cache);
-}
-
-void HostedRoom::depart() {
-  if (saving_) hand_in();
-}
-
 void HostedRoom::wake() {
   if (saving_ && saving_->has_failed) {
     saving_->has_failed = false;
@@ -165,15 +150,6 @@ bool HostedRoom::begin_next() {
   if (asked_.empty()) return false;
   auto asked = std::move(asked_.front());
   asked_.pop_front();
-  if (asked.make) {
-    auto request = asked.make(*room_);
-    if (!request) {
-      asked.done({.events = {}, .refusal = Refusal{"not-now", "There is nothing to do any more."}});
-      return true;
-    }
-    asked.command = std::move(request->command);
-    asked.with = std::move(request->with);
-  }
   const auto& id = asked.command.id;
   if (!id.empty() && std::binary_search(messages_.begin(), messages_.end(), mark_of(asked.command.actor, id))) {
     asked.done({});
@@ -196,7 +172,6 @@ bool HostedRoom::begin_next() {
 
 void HostedRoom::save(Saving saving) {
   saving_ = std::move(saving);
-  if (const auto vacancy = room_->vacancy(saving_->events.back())) return host_.on_vacancy(*this, *vacancy);
   hand_in();
 }
 

@@ -49,16 +49,8 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
     virtual void on_trouble(std::int64_t room, const std::string& what) = 0;
     // The room, a waiting list, has nothing to do at the moment: on its strand. A group may be formed.
     virtual void on_waiting(HostedRoom& room) = 0;
-    // Somebody drops out of the room, on its strand, and somebody from the waiting list may take over. Has to be
-    // answered with fill() or depart() on that strand; until then the room stands still.
-    virtual void on_vacancy(HostedRoom& room, const Vacancy& vacancy) = 0;
   };
   using Done = std::function<void(const CommandOutcome& outcome)>;
-  // A command, and what is saved together with its events.
-  struct Request {
-    RoomCommand command;
-    StoreBatch with;
-  };
 
   HostedRoom(Host& host, std::shared_ptr<const LiveStudy> study, StoredRoom stored, RoomSetup setup)
       : host_{host}, study_{std::move(study)}, stored_{std::move(stored)}, setup_{std::move(setup)} {}
@@ -86,16 +78,6 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   // Has a command decided. `id` of the command may be empty. What is in the batch is saved together with the events
   // that the command leads to, or not at all.
   void ask(RoomCommand command, Done done, StoreBatch with = {});
-  // The same of a command that is made when its turn comes, from the room as it is then; nothing: it is refused.
-  void ask_when_ready(std::function<std::optional<Request>(const Room& room)> make, Done done);
-  // The departure that on_vacancy() told of, and the id of the message that asked for it, or "".
-  // @pre on_vacancy() has not been answered yet.
-  [[nodiscard]] const RoomEvent& departure() const { return saving_->events.back(); }
-  [[nodiscard]] const std::string& departure_message() const { return saving_->message; }
-  // Somebody takes the place over: these events, the departure last, are on the disk.
-  void fill(std::vector<RoomEvent> events, TeachingCache& cache);
-  // Nobody does: the departure is saved as it is.
-  void depart();
   // What can be observed of everybody who was taught, for audits, and of how many periods.
   [[nodiscard]] std::vector<TaughtPerson> observed() const {
     return room_->holds_session() ? taught_.all(*room_) : observed_;
@@ -114,7 +96,6 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
     RoomCommand command;
     Done done;
     StoreBatch with;
-    std::function<std::optional<Request>(const Room& room)> make{};
   };
   // Events on their way to the disk. `message` is the id of the message that led to the last one.
   struct Saving {

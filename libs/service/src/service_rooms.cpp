@@ -22,16 +22,10 @@ LogEntry entry_of(const StoredEvent& event) {
 // Why something happened that no facilitator gave a reason for.
 std::string reason_for(const std::string& type, const Json& body) {
   if (type == "returned") return "followed the join link again: back in room " + text_at(body, "room");
-  if (type == happening::Called::kKind.word) {
-    return "takes over seat " + std::to_string(count_at(body, "for")) + " of room " + text_at(body, "room") +
-           (text_at(body, "why") == "left" ? ", whose person left" : ", whose person was away for too long");
-  }
   const auto by = count_at(body, "by");
   if ((type != happening::Dropped::kKind.word && type != happening::Left::kKind.word) || by == 0)
     return text_at(body, "reason");
-  const bool is_simulated = !text_at(body, "type").empty();
-  return (is_simulated ? "a simulated learner takes over as seat " : "another person takes over as seat ") +
-         std::to_string(by);
+  return "a simulated learner takes over as seat " + std::to_string(by);
 }
 
 // What a facilitator asks for when making rooms.

@@ -169,18 +169,12 @@ struct LiveService::State final : HostedRoom::Host {
   void on_applied(HostedRoom& room, std::span<const RoomEvent> events) override;
   void on_trouble(std::int64_t room, const std::string& what) override;
   void on_waiting(HostedRoom& list) override;
-  void on_vacancy(HostedRoom& room, const Vacancy& vacancy) override;
 
   // service_waiting.cpp
   // Makes the waiting list if the study has one and it is not there yet.
   void make_waiting_list();
   // People of the waiting list have places in a new room, which is saved.
   void seat_group(const StoredRoom& stored, const std::vector<StoredEvent>& events);
-  // What calls somebody from the waiting list into a group in place of whoever drops out; nothing if nobody fits.
-  // @param group  as it is, and the departure that it is about to save.
-  [[nodiscard]] std::optional<HostedRoom::Request> call_into(const Room& list, const Room& group,
-                                                             const Vacancy& vacancy, const RoomEvent& departure,
-                                                             const std::string& message) const;
   // Somebody's link leads to another seat from now on. The mutex is held.
   void move_person(const Place& from, const Place& to);
   // Where the holder of a link is now. The mutex is held.

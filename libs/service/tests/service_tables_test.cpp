@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "kith/core/error.hpp"
 #include "kith/store/session_review.hpp"
 #include "service_group.hpp"
 
@@ -55,6 +56,20 @@ TEST(LiveService, ExportsAndRebuildsARoomOfStandIns) {
   facilitator = stage.facilitator();
   EXPECT_EQ(row(), before);
   EXPECT_EQ(facilitator->view().at("integrity")["problems"], Json::array());
+}
+
+// What was recorded when other people took seats over.
+TEST(LiveService, SaysWhatReadsASessionOfAnEarlierPolicy) {
+  auto inputs = small_study().inputs;
+  auto& text = inputs.at("study.toml");
+  const std::string policy = "pause-then-continue";
+  text.replace(text.find(policy), policy.size(), "replace-from-pool");
+  try {
+    static_cast<void>(restore_session_study(inputs));
+    FAIL() << "it was read";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string{error.what()}.find("are read by the kith that recorded them"), std::string::npos);
+  }
 }
 
 // One person of three is ready when the time in the lobby is over.

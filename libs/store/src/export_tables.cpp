@@ -51,7 +51,7 @@ void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options
   using R = ParticipantRow;
   table.column(&R::session, kSessionWords)
       .column(&R::seat, kSeatWords)
-      .column(&R::member, identifier(kMember, "Place in the group, from 1; missing for people who waited in reserve."))
+      .column(&R::member, identifier(kMember, "Place in the group, from 1; missing for people on a waiting list."))
       .column(&R::type, {kType, "Letter of the learner type of that place."})
       .column(&R::strategy, {kStrategy, "Strategy of the room; missing for people who stayed on the waiting list."})
       .column(&R::composition, {kComposition, "Types of the members of the room; missing like the strategy."})

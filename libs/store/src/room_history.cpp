@@ -68,7 +68,6 @@ class Collector {
   void note(const Discussed&) {}
   void note(const Released&) {}
   void note(const Grouped&) {}
-  void note(const Called&) {}
   void note(const TimeOver&) {}
   void note(const Paused&) {}
   void note(const Resumed&) {}
@@ -77,12 +76,12 @@ class Collector {
   void note(const Readmitted&) {}
   void note(const StrategyNamed&) {}
 
-  // Somebody has a place, waits in reserve, or takes a place over with the next event.
+  // Somebody has a place, or is on the waiting list.
   template <typename Event>
   SeatRow& begin(const Event& e) {
     auto& row = history_.seats[e.seat];
     row.joined_us = at_us_;
-    if (e.member) row.member = *e.member + 1;
+    if (const std::optional<std::size_t> member = e.member) row.member = *member + 1;
     return row;
   }
 
@@ -118,7 +117,6 @@ class Collector {
     if (by == 0) return;
     auto& row = history_.seats[by];
     row.member = history_.seats[seat].member;
-    if (row.joined_us != 0) return;
     row.joined_us = at_us_;
     row.simulated = true;
   }

@@ -14,7 +14,6 @@ template <>
 inline constexpr std::array kWordsFor<DropoutPolicy>{
     WordFor{DropoutPolicy::kPauseThenContinue, "pause-then-continue"},
     WordFor{DropoutPolicy::kContinueNow, "continue-now"},
-    WordFor{DropoutPolicy::kReplaceFromPool, "replace-from-pool"},
     WordFor{DropoutPolicy::kSimulate, "simulate"},
     WordFor{DropoutPolicy::kEndGroup, "end-group"},
 };
@@ -154,27 +153,18 @@ class GroupReader {
 
   void read_dropout(TomlReader& dropout) {
     auto& options = options_.dropout;
+    const auto* policy = dropout.content().find("policy");
+    if (policy != nullptr && policy->string() != nullptr && *policy->string() == "replace-from-pool") {
+      report_.error("E0422", policy->place(),
+                    "other people take no seats over any more ('replace-from-pool'); sessions that were recorded with "
+                    "it are read by the kith that recorded them",
+                    "write policy = \"simulate\" or \"pause-then-continue\", and remove 'reserves' and 'otherwise'");
+      return;
+    }
     take(options.policy, one_of<DropoutPolicy>(dropout, "policy", Presence::kOptional));
     take(options.grace_s, dropout.integer("grace_s", Presence::kOptional, {0, kDay}));
     take(options.min_active, dropout.integer("min_active", Presence::kOptional, {1, kMostMembers}));
-    take(options.reserves, dropout.integer("reserves", Presence::kOptional, {0, kMostMembers}));
-    const auto otherwise =
-        one_of<DropoutPolicy>(dropout, "otherwise", Presence::kOptional,
-                              {DropoutPolicy::kPauseThenContinue, DropoutPolicy::kSimulate, DropoutPolicy::kEndGroup});
-    take(options.otherwise, otherwise);
     dropout.finish();
-    if (otherwise && options.policy != DropoutPolicy::kReplaceFromPool) {
-      report_.error("E0422", place_of_key(dropout, "otherwise"),
-                    "'otherwise' is for seats that no other person can take, which the policy '" +
-                        std::string{name_of(options.policy)} + "' never looks for",
-                    "write policy = \"replace-from-pool\", or remove 'otherwise'");
-    }
-    if (options.reserves > 0 && options.policy != DropoutPolicy::kReplaceFromPool) {
-      report_.error("E0422", place_of_key(dropout, "reserves"),
-                    "nobody from the reserve would ever take a seat with the policy '" +
-                        std::string{name_of(options.policy)} + "'",
-                    "write policy = \"replace-from-pool\", or remove 'reserves'");
-    }
   }
 
   void read_time(TomlReader& time) {

@@ -79,10 +79,6 @@ TomlTable group_table(const GroupOptions& group) {
   dropout.add("policy", std::string{name_of(group.dropout.policy)});
   dropout.add("grace_s", group.dropout.grace_s);
   dropout.count("min_active", group.dropout.min_active);
-  if (group.dropout.reserves > 0) dropout.count("reserves", group.dropout.reserves);
-  if (group.dropout.otherwise != DropoutPolicy::kPauseThenContinue) {
-    dropout.add("otherwise", std::string{name_of(group.dropout.otherwise)});
-  }
   table.add("dropout", dropout.take());
 
   for (const auto& key : kGroupTimeKeys) {

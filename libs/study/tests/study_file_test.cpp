@@ -275,11 +275,8 @@ INSTANTIATE_TEST_SUITE_P(
                 6},
         Mistake{"E0109", "[design]", "group.questions = [{ id = \"a\", kind = \"text\" }]\n[design]", 6},
         Mistake{"E0422", "[design]", "group.consent_file = \"a\"\ngroup.consent.text = \"b\"\n[design]", 6},
-        Mistake{"E0422", "[design]", "group.dropout.reserves = 1\n[design]", 6},
         Mistake{"E0422", "[design]", "group.dropout.min_active = 3\n[design]", 6},
-        Mistake{"E0422", "[design]", "group.dropout.otherwise = \"simulate\"\n[design]", 6},
-        Mistake{"E0112", "[design]",
-                "group.dropout = { policy = \"replace-from-pool\", otherwise = \"continue-now\" }\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.dropout = { policy = \"replace-from-pool\", reserves = 1 }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.people = [3]\n[design]", 6},
         Mistake{"E0422", "[design]", "group.screening = { high = \"N\" }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.screening = { tests = 2, high = \"Q\" }\n[design]", 6},
@@ -388,7 +385,7 @@ consent = { version = "3", text = "I agree." }
 auto_start = false
 size = 3
 people = [3, 1]
-dropout = { policy = "replace-from-pool", grace_s = 5, min_active = 2, reserves = 1, otherwise = "end-group" }
+dropout = { policy = "simulate", grace_s = 5, min_active = 2 }
 time = { watch_s = 1, predict_s = 2, feedback_s = 3, lobby_s = 4, leave_after_s = 5, max_minutes = 6 }
 screening = { tests = 3, cut = 0.25, high = "N" }
 screens = { predict_first = true, brackets = true }
@@ -418,7 +415,7 @@ TEST(StudyFile, ReadsAndWritesHowGroupsOfPeopleAreTaught) {
   EXPECT_THAT(group.story, ElementsAre("One.", "Two."));
   EXPECT_THAT(group.consent_text, ElementsAre("I agree."));
   EXPECT_THAT(group.people, ElementsAre(1u, 3u));
-  EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kReplaceFromPool, 5, 2, 1, DropoutPolicy::kEndGroup}));
+  EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kSimulate, 5, 2}));
   EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 0, 4, 5, 6}));
   EXPECT_EQ(group.screening, (GroupScreening{3, 0.25}));
   EXPECT_EQ(group.screens, (GroupScreens{true, true}));

@@ -88,7 +88,6 @@ const kLogged: Record<string, string> = {
   dropped: 'dropped out',
   released: 'released from the lobby',
   grouped: 'formed a group from the waiting list',
-  called: 'left the waiting list for a group',
   time: 'a time limit was reached',
   present: 'connected',
   away: 'away',
@@ -112,7 +111,6 @@ export const endText = (reason: string | undefined): string => (reason ? (kEnds[
 const kPolicies: Record<string, string> = {
   'pause-then-continue': 'Pause the group; continue without the person after the grace period',
   'continue-now': 'Continue without the person immediately',
-  'replace-from-pool': 'Fill the seat with a person from the reserve or the waiting list',
   simulate: 'Fill the seat with a simulated learner',
   'end-group': 'End the session; everyone gets a completion code',
 };

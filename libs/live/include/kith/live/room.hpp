@@ -54,14 +54,6 @@ struct PlannedGroup {
 /// {strategy, composition, simulated, seats}.
 [[nodiscard]] Json to_json(const PlannedGroup& group);
 
-/// The place of somebody who drops out of a group that has begun, for a person from the waiting list.
-struct Vacancy {
-  std::size_t seat = 0;  ///< Of who drops out, from 1.
-  char type = 'N';       ///< Of the place: its letter in the composition.
-  std::string why;       ///< "away" or "left".
-  friend bool operator==(const Vacancy&, const Vacancy&) = default;
-};
-
 /// Who is looking at a room.
 struct Viewer {
   enum class Role { kParticipant, kObserver, kFacilitator };
@@ -158,17 +150,6 @@ class Room {
   /// What a room has to know of a person on this waiting list who is given a place there: the body of a command "seat",
   /// without the member. @param seat  from 1.
   [[nodiscard]] Json person_for(std::size_t seat) const;
-  /// The seat on this waiting list of the person who is to take over a place of that type: whoever has waited for
-  /// longest of those for whom such places are. Nothing if nobody fits, or this room is no waiting list.
-  [[nodiscard]] std::optional<std::size_t> next_for(char type) const;
-
-  /// The place that somebody from the waiting list may take over because of an event of the types "left" and "dropped"
-  /// that is possible now. Nothing if the study replaces nobody from the pool, the room has a reserve of its own, the
-  /// session is not running, or the person has no place.
-  [[nodiscard]] std::optional<Vacancy> vacancy(const RoomEvent& departure) const;
-  /// What happens instead of a departure with a vacancy(): the person comes, and takes the place over.
-  /// @param person  of person_for(). @throws kith::Error (kMismatch) if the person cannot come.
-  [[nodiscard]] std::vector<RoomEvent> replaced(const RoomEvent& departure, Json person, std::int64_t now_us) const;
 
   /// What somebody sees. Participants: ParticipantView. Facilitators and observers: {"row": RoomRow, "room":
   /// RoomDetail}, without links, and for observers without names and codes.

@@ -54,7 +54,7 @@ inline constexpr bool kLogged = true, kUnlogged = false;
 inline constexpr PersonalMember kItsQuery{"query", PersonalMember::What::kQuery};
 inline constexpr PersonalMember kItsName{"name", PersonalMember::What::kNameIfAny};
 
-/// Somebody took a free seat, or waits in reserve.
+/// Somebody took a free seat; on a waiting list there are no members.
 struct Joined {
   static constexpr RoomEventKind kKind{"joined", "join", kServer, kLogged};
   std::size_t seat = 0;
@@ -256,24 +256,12 @@ struct Grouped {
                                        "room",      &Grouped::room};
 };
 
-/// On a waiting list: the person takes over seat `whose` of a room that has begun; `type` is that of the place, `why`
-/// "left" or "away".
-struct Called {
-  static constexpr RoomEventKind kKind{"called", "call", kServer, kLogged};
-  std::size_t seat = 0;
-  std::string room;
-  std::size_t whose = 0;
-  std::string type, why;
-  static constexpr std::tuple kMembers{"seat",         &Called::seat, "room",        &Called::room, "for",
-                                       &Called::whose, "type",        &Called::type, "why",         &Called::why};
-};
-
-/// Somebody from the waiting list has the place or, without a member, takes over that of the departure that follows.
-/// `from` is {room, seat} there, the rest what the room has to know of them.
+/// Somebody from the waiting list has the place. `from` is {room, seat} there, the rest what the room has to know of
+/// them.
 struct Seated {
   static constexpr RoomEventKind kKind{"seated", "seat", kServer, kUnlogged, true, false, {kItsQuery, kItsName}};
   std::size_t seat = 0;
-  std::optional<std::size_t> member{};
+  std::size_t member = 0;
   Json from;
   std::string version;
   Json query;
@@ -392,10 +380,10 @@ using RoomHappening =
                  happening::Screened, happening::Started, happening::LessonChosen, happening::Watched,
                  happening::Drafted, happening::Answered, happening::Continued, happening::Explored,
                  happening::QuestionsAnswered, happening::Left, happening::Away, happening::Present, happening::Dropped,
-                 happening::Released, happening::Grouped, happening::Called, happening::Seated, happening::TimeOver,
-                 happening::Paused, happening::Resumed, happening::Extended, happening::MessageSent,
-                 happening::Readmitted, happening::Simulated, happening::StrategyNamed, happening::Ended,
-                 happening::Discussed, happening::Examined>;
+                 happening::Released, happening::Grouped, happening::Seated, happening::TimeOver, happening::Paused,
+                 happening::Resumed, happening::Extended, happening::MessageSent, happening::Readmitted,
+                 happening::Simulated, happening::StrategyNamed, happening::Ended, happening::Discussed,
+                 happening::Examined>;
 
 /// All rows.
 inline constexpr auto kRoomEventKinds = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
@@ -429,8 +417,6 @@ struct RoomEvent {
 /// What somebody asks for. Types of seats and facilitators are those of docs/live-protocol.md; those of the server:
 ///   join {seat?}           takes a free seat: that one, or any; the event tells which
 ///   group {room, ...}      on a waiting list: what Room::next_group() plans is done; the body is that of the event
-///   call {seat, ...}       on a waiting list: the person whom Room::next_for() names is called; the body is that of
-///                          the event
 ///   seat {member, ...}     gives the place of a member to somebody from a waiting list, see Room::person_for()
 ///   away {seat}, present {seat}
 struct RoomCommand {

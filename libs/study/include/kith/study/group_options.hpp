@@ -16,12 +16,11 @@ namespace kith {
 enum class DropoutPolicy {
   kPauseThenContinue,  ///< The group waits for the grace period, then continues without the person.
   kContinueNow,        ///< The group continues at once; who returns takes part from the next lesson on.
-  kReplaceFromPool,    ///< After the grace period somebody from the reserve or the waiting list takes the seat.
   kSimulate,           ///< After the grace period a simulated learner of the seat's type takes the seat.
   kEndGroup,           ///< After the grace period the session ends for everybody.
 };
 
-/// "pause-then-continue", "continue-now", "replace-from-pool", "simulate", "end-group".
+/// "pause-then-continue", "continue-now", "simulate", "end-group".
 [[nodiscard]] std::string_view name_of(DropoutPolicy policy) noexcept;
 
 /// `group.dropout` of a study file.
@@ -29,14 +28,6 @@ struct GroupDropout {
   DropoutPolicy policy = DropoutPolicy::kPauseThenContinue;
   std::int64_t grace_s = 90;   ///< Seconds, 0 to 86 400, from the moment at which somebody is found to be away.
   std::size_t min_active = 1;  ///< 1 to 30: with fewer people the session ends.
-  std::size_t reserves = 0;    ///< 0 to 30: how many people beyond the seats may wait for a seat to become free.
-  /// With kReplaceFromPool: the policy if nobody can take the seat; kPauseThenContinue, kSimulate or kEndGroup.
-  DropoutPolicy otherwise = DropoutPolicy::kPauseThenContinue;
-
-  /// What happens to a seat that no other person takes.
-  [[nodiscard]] DropoutPolicy without_reserve() const noexcept {
-    return policy == DropoutPolicy::kReplaceFromPool ? otherwise : policy;
-  }
   friend bool operator==(const GroupDropout&, const GroupDropout&) = default;
 };
 
