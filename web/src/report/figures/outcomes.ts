@@ -24,7 +24,7 @@ export function outcomeFigures(study: Study, ofExam: boolean): Figure[] {
   return present.map((outcome) => {
     const { column, better, meaning } = outcome;
     const title = `${outcome.name} by strategy and composition`;
-    const reading = `Further ${outcome.less_is_better ? 'left' : 'right'} means ${better}. ${meaning} Large marks are means with 95\u00a0% t intervals, small dots are single teams.`;
+    const reading = `Further ${outcome.less_is_better ? 'left' : 'right'} means ${better}.${meaning ? ` ${meaning}` : ''} Large marks are means with 95\u00a0% t intervals, small dots are single teams.`;
     return {
       id: ofExam ? `${column.replaceAll('_', '-')}-cells` : column,
       title,
