@@ -12,6 +12,7 @@
 #include "embedded.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
+#include "kith/maps/occupancy_grid.hpp"
 #include "kith/service/lesson_log.hpp"
 #include "kith/store/session_study.hpp"
 #include "kith/study/study_file.hpp"
@@ -65,6 +66,17 @@ StudyReading reading_of(LessonOptions options) {
   auto reading = parse_study(text, "the study of a lesson", {.overrides = set, .override_name = "--set"});
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
+}
+
+// The engine of a page reads no YAML: the same table as JSON.
+void write_as_json(DomainFile& file) {
+  if (!file.name.ends_with(".yaml") && !file.name.ends_with(".yml")) return;
+  detail::ModelReport report;  // has been said
+  const auto table = detail::read_yaml_table({file.name, file.name, file.text}, report);
+  nlohmann::json json;
+  for (const auto& [key, value] : table.value())
+    json[key] = value.is_list ? nlohmann::json(value.scalars) : nlohmann::json(value.scalars.at(0));
+  file.text = json.dump();
 }
 
 // The same for people who know the robot as it was before an update.
@@ -131,8 +143,9 @@ int run(const LessonOptions& options, Console& console) {
     refuse("a lesson that adapts is a page", "write it with -o lesson.html or -o lesson.zip, without --json");
   require_engine();
   const WorkNotice notice{console, "preparing the lesson"};
-  const auto reading = reading_for(options);
+  auto reading = reading_for(options);
   console.show(reading.diagnostics);
+  for (auto& file : reading.domain_files) write_as_json(file);
   const auto folder = std::filesystem::path{options.what}.parent_path();
   auto document = lesson_document(make_session_study(reading, folder), program_name());
   for (const auto& origin : options.origins) require_origin(origin);

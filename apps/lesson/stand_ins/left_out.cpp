@@ -1,5 +1,6 @@
-// What a page has no use for: threads, a look at the machine's memory, and built-in domains and studies.
+// What a page has no use for: threads, a look at the machine's memory, YAML, and built-in domains and studies.
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -7,6 +8,7 @@
 #include "kith/core/parallel_loop.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/files/base64.hpp"
+#include "kith/maps/occupancy_grid.hpp"
 
 namespace kith {
 
@@ -40,6 +42,18 @@ std::string base64(std::string_view bytes) {
 }
 
 namespace detail {
+
+// `kith lesson` has written it as JSON.
+std::optional<YamlTable> read_yaml_table(const ModelText& file, ModelReport& report) {
+  const auto json = nlohmann::json::parse(file.text, nullptr, false);
+  YamlTable table;
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_array()) table[key] = {value.get<std::vector<std::string>>(), true};
+    if (value.is_string()) table[key] = {{value.get<std::string>()}};
+  }
+  if (!json.is_object()) report.error("E0268", place_at(file, 0), "the grid is not as kith lesson writes it");
+  return json.is_object() ? std::optional{table} : std::nullopt;
+}
 
 // The study of a page is a file.
 extern const std::string_view kQuickText, kPaperText, kPaperUncalibratedText;

@@ -16,10 +16,8 @@ namespace fs = std::filesystem;
 // ".csv, .json or .tra"
 std::string list_of(const std::vector<std::string_view>& endings) {
   std::string text;
-  for (std::size_t i = 0; i < endings.size(); ++i) {
-    if (i > 0) text += i + 1 == endings.size() ? " or " : ", ";
-    text += endings[i];
-  }
+  for (std::size_t i = 0; i < endings.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 == endings.size() ? " or " : ", ").append(endings[i]);
   return text;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kith/maps/grey_image.hpp"
@@ -17,6 +19,16 @@ struct OccupancyGrid {
   std::size_t height = 0;
   std::vector<Occupancy> pixels;  // shape [height, width]
 };
+
+// A value of a flat YAML table.
+struct YamlValue {
+  std::vector<std::string> scalars;  // one, or those of a list
+  bool is_list = false;
+  std::size_t offset = 0, key_offset = 0;  // in bytes: its own, and that of its key
+};
+using YamlTable = std::map<std::string, YamlValue>;
+// Nothing after reporting what is wrong (E0268). The engine of pages has one that reads JSON instead, which is YAML.
+[[nodiscard]] std::optional<YamlTable> read_yaml_table(const ModelText& file, ModelReport& report);
 
 // Reads an occupancy grid as ROS's map_server writes it: a YAML file that names an image and says how grey becomes
 // occupancy (`negate`, `occupied_thresh`, `free_thresh`). A pixel's probability of being occupied is
