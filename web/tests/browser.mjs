@@ -72,3 +72,12 @@ export async function reads(part, pattern) {
   }
   assert.match(text, pattern);
 }
+
+// What people who depend on assistive technology could not use.
+export async function violations(page, axeSource, exclude = []) {
+  await page.evaluate(axeSource); // from the debugger, so that the page's policy stays as it is
+  const { violations: found } = await page.evaluate((hidden) => axe.run({ exclude: hidden }, { resultTypes: ['violations'] }), exclude);
+  return found
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
+}

@@ -12,8 +12,8 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { pictureOf } from '../picture.mjs';
 import { fillPage } from '../sample/fill_page.mjs';
-import { launch, openPage, reads, requireFrom } from './browser.mjs';
-import { drawn, endless, hugeLesson, largeLesson, mapless, uncertain } from './lessons.mjs';
+import { launch, openPage, reads, requireFrom, violations } from './browser.mjs';
+import { drawn, endless, hugeLesson, mapless, uncertain } from './lessons.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -49,7 +49,6 @@ const long = { ...sample, components: [part, { ...part, number: 2, demonstration
 const longBoards = part.demonstrations.length + part.tests.length + 22 + sample.fresh.length;
 const pages = {
   sample: addressOf('sample', sample),
-  large: addressOf('large', largeLesson()),
   huge: addressOf('huge', hugeLesson()),
   mapless: addressOf('mapless', mapless()),
   uncertain: addressOf('uncertain', uncertain()),
@@ -68,14 +67,6 @@ async function withLesson(name, look, body) {
   } finally {
     await lesson.context.close();
   }
-}
-
-async function violations(page) {
-  await page.evaluate(axeSource); // from the debugger, so that the page's policy stays as it is
-  const { violations: found } = await page.evaluate(() => axe.run(document, { resultTypes: ['violations'] }));
-  return found
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
 }
 
 const kSkip = /^(Watch without a guess|Show the answer)$/;
@@ -145,7 +136,7 @@ describe('a lesson', () => {
             }));
             assert.ok(body <= view, `${what}: the page is ${body} px wide in a window of ${view} px`);
             assert.equal(focus, what === 'introduction' ? 'BODY' : 'H2', `the focus, ${what}`);
-            if (!known.has(what)) assert.deepEqual(await violations(page), [], what);
+            if (!known.has(what)) assert.deepEqual(await violations(page, axeSource), [], what);
             known.add(what);
             const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
             assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that more than one element has');
@@ -370,7 +361,7 @@ describe('a lesson', () => {
     });
   });
 
-  it('enlarges small cells, and shows the part of the map around the robot', async () => {
+  it('enlarges small cells, and shows the place where paths separate, and then the part around the robot', async () => {
     await withLesson('huge', { width: 390, dark: false, reducedMotion: true }, async (page) => {
       const shown = await open(page);
       await shown.getByRole('button', { name: 'Watch without a guess' }).click();
@@ -378,14 +369,18 @@ describe('a lesson', () => {
       const look = () =>
         shown.evaluate((card) => {
           const box = (selector) => card.querySelector(selector).getBoundingClientRect();
-          const [pan, svg, robot, seen] = [box('.pan'), box('.pan svg'), box('.mover'), card.querySelector('.overview .seen')];
+          const [pan, svg, seen] = [box('.pan'), box('.pan svg'), card.querySelector('.overview .seen')];
+          const isInside = ({ left, right, top, bottom }) => left >= pan.left && right <= pan.right && top >= pan.top && bottom <= pan.bottom;
           return {
             cell: svg.width / 60,
-            isRobotInside: robot.left >= pan.left && robot.right <= pan.right && robot.top >= pan.top && robot.bottom <= pan.bottom,
+            isForkInside: isInside(box('.decisive')),
+            isRobotInside: isInside(box('.mover')),
             left: card.querySelector('.pan').scrollLeft,
             seen: Number(seen.getAttribute('x')),
           };
         });
+      assert.ok((await look()).isForkInside, 'the place that tells why is out of sight');
+      await shown.locator('.step-button').first().click();
       const first = await look();
       assert.ok(first.cell >= 27.5, `cells of ${first.cell} px`);
       assert.ok(first.isRobotInside);

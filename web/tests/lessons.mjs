@@ -16,90 +16,52 @@ function robotAlong(cells, actions) {
   return cells.map(([x, y], i) => ({
     robot: [x, y],
     items: [{ name: 'medicine', cell: i < 5 ? [12, 8] : [x, y], carried: i >= 5 }],
-    stations: [[20, 3]],
+    stations: [[21, 4]],
     action: actions[i] ?? null,
   }));
 }
 
-// 24 columns, 16 rows.
-export function largeLesson() {
-  const map = Array.from({ length: 16 }, (_, y) =>
-    Array.from({ length: 24 }, (_, x) => {
-      if (y === 2 && x === 19) return 'C';
-      if (y === 15 && x === 23) return 'D';
-      if (x % 7 === 3 && y % 5 !== 2) return '#';
-      if ((x * 5 + y * 3) % 11 === 0) return 'r';
-      if ((x * 3 + y * 7) % 13 === 0) return 's';
-      return '.';
-    }).join(''),
-  );
-  const across = Array.from({ length: 20 }, (_, i) => [i + 3, 8]);
-  const frames = robotAlong(across, Array.from({ length: 19 }, () => 'right'));
-  const other = [...frames.slice(0, 4), ...frames.slice(4).map((frame) => ({ ...frame, robot: [frame.robot[0] - 1, 9] }))];
-  other[3] = { ...other[3], action: 'down' };
-  const board = { world: 4711, map, start: frames[0], frames, ...kUnjudged };
-  return {
-    schema: 'kith.curriculum/1',
-    title: 'Search and rescue',
-    program: 'kith',
-    ...kUndriven,
-    domain: {
-      id: 'rescue',
-      job: 'The robot brings the medicine to where it belongs.',
-      counted: Array.from({ length: 8 }, (_, k) => countedAs(`thing ${k}`)),
-      title: 'Search and rescue on a large floor',
-      width: 24,
-      height: 16,
-      features: Array.from({ length: 8 }, (_, k) => ({ name: `f${k}`, words: `thing ${k}`, many: `{n} things ${k}`, do: '', do_many: '', weight: -k })),
-      legend: [
-        { symbol: '#', kind: 'wall', name: 'wall' },
-        { symbol: 'r', kind: 'terrain', name: 'rubble' },
-        { symbol: 's', kind: 'terrain', name: 'smoke' },
-        { symbol: 'C', kind: 'terrain', name: 'rubble', parts: [{ kind: 'terrain', name: 'rubble' }, { kind: 'station', name: 'charger' }] },
-        { symbol: 'D', kind: 'destination', name: 'destination of medicine' },
-      ],
-      surfaces: [
-        { name: 'rubble', tint: 'brown', pattern: 'dots' },
-        { name: 'smoke', tint: 'grey', pattern: 'lines' },
-      ],
-    },
-    components: [
-      {
-        number: 1,
-        name: 'crossing rubble against steps',
-        sentences: [sentence],
-        demonstrations: [
-          {
-            ...board,
-            reason: 'it would rather take 2 more steps than cross rubble: crossing rubble costs more than 2 steps',
-            conveys: [sentence, sentence],
-            alternative: { frames: other },
-            decisive: { frame: 3, cell: [6, 8] },
-            flip: { ...board, world: 4710, text: 'without the rubble at (7,8) it goes down at (6,8) rather than going right' },
-          },
-        ],
-        tests: [{ ...board, state: 1, covers: [sentence] }],
-      },
-    ],
-    skipped: [],
-  };
-}
+// One part with an example, `shown`, and a test.
+const lessonOf = (domain, board, shown) => ({
+  schema: 'kith.curriculum/1',
+  title: domain.title,
+  program: 'kith',
+  ...kUndriven,
+  domain,
+  components: [
+    { number: 1, name: 'one against the other', sentences: [sentence], demonstrations: [{ ...board, conveys: [sentence], ...shown }], tests: [{ ...board, state: 1, covers: [sentence] }] },
+  ],
+  skipped: [],
+});
 
 // 60 columns, 40 rows: on most screens only a part of it can be seen with cells of a readable size.
 export function hugeLesson() {
-  const lesson = largeLesson();
-  const [columns, rows] = [60, 40];
-  const map = Array.from({ length: rows }, (_, y) =>
-    Array.from({ length: columns }, (_, x) => (y % 6 === 3 && x % 10 > 2 ? '#' : (x + 2 * y) % 17 === 0 ? 'r' : '.')).join(''),
+  const [width, height] = [60, 40];
+  const map = Array.from({ length: height }, (_, y) =>
+    Array.from({ length: width }, (_, x) => (x === 20 && y === 3 ? 'C' : x === 59 && y === 39 ? 'D' : y % 6 === 3 && x % 10 > 2 ? '#' : (x + 2 * y) % 17 === 0 ? 'r' : '.')).join(''),
   );
   const along = Array.from({ length: 50 }, (_, i) => [i + 3, 36]);
   const frames = robotAlong(along, Array.from({ length: 49 }, () => 'right'));
-  const board = { world: 1, map, start: frames[0], frames, ...kUnjudged };
-  Object.assign(lesson.domain, { width: columns, height: rows });
-  const [component] = lesson.components;
-  component.demonstrations = component.demonstrations.map((shown) => ({ ...shown, ...board, alternative: null, decisive: null, flip: null }));
-  component.tests = component.tests.map((test) => ({ ...test, ...board, state: 1 }));
-  return lesson;
+  const other = [...frames.slice(0, 4), ...frames.slice(4).map((frame) => ({ ...frame, robot: [frame.robot[0] - 1, 37] }))];
+  other[3] = { ...other[3], action: 'down' };
+  const domain = {
+    id: 'rescue',
+    job: 'The robot brings the medicine to where it belongs.',
+    counted: Array.from({ length: 8 }, (_, k) => countedAs(`thing ${k}`)),
+    title: 'Search and rescue on a large floor',
+    width,
+    height,
+    features: Array.from({ length: 8 }, (_, k) => ({ name: `f${k}`, words: `thing ${k}`, many: `{n} things ${k}`, do: '', do_many: '', weight: -k })),
+    legend: [
+      { symbol: '#', kind: 'wall', name: 'wall' },
+      { symbol: 'r', kind: 'terrain', name: 'rubble' },
+      { symbol: 'C', kind: 'terrain', name: 'rubble', parts: [{ kind: 'terrain', name: 'rubble' }, { kind: 'station', name: 'charger' }] },
+      { symbol: 'D', kind: 'destination', name: 'destination of medicine' },
+    ],
+    surfaces: [{ name: 'rubble', tint: 'brown', pattern: 'dots' }],
+  };
+  const reason = 'it would rather take 2 more steps than cross rubble: crossing rubble costs more than 2 steps';
+  return lessonOf(domain, { world: 1, map, start: frames[0], frames, ...kUnjudged }, { reason, alternative: { frames: other }, decisive: { frame: 3, cell: [6, 36] } });
 }
 
 export function mapless() {
@@ -107,32 +69,10 @@ export function mapless() {
   const own = frames(['dock', 'wait'], ['dock, charged', 'leave'], ['hall', 'forward'], ['done']);
   const other = frames(['dock', 'leave'], ['hall, nearly empty', 'forward'], ['done']);
   const board = { world: 0, world_name: 'weekday', start: { state: 'dock' }, frames: own, ...kUnjudged };
-  return {
-    schema: 'kith.curriculum/1',
-    title: 'A model without a map',
-    program: 'kith',
-    ...kUndriven,
-    domain: { id: 'model', counted: [countedAs('minutes')], title: 'A model without a map', features: [{ name: 'time', words: 'a minute', many: '{n} minutes', do: '', do_many: '', weight: -1 }] },
-    components: [
-      {
-        number: 1,
-        name: 'waiting against time',
-        sentences: [sentence],
-        demonstrations: [
-          {
-            ...board,
-            reason: 'it would rather wait than run empty: running empty costs more than a minute',
-            conveys: [sentence],
-            alternative: { frames: other },
-            decisive: { frame: 0 },
-            flip: null,
-          },
-        ],
-        tests: [{ ...board, state: 1, covers: [sentence] }],
-      },
-    ],
-    skipped: [{ name: 'something', why: 'all of it is known beforehand' }],
-  };
+  const features = [{ name: 'time', words: 'a minute', many: '{n} minutes', do: '', do_many: '', weight: -1 }];
+  const reason = 'it would rather wait than run empty: running empty costs more than a minute';
+  const lesson = lessonOf({ id: 'model', counted: [countedAs('minutes')], title: 'A model without a map', features }, board, { reason, alternative: { frames: other }, decisive: { frame: 0 } });
+  return { ...lesson, skipped: [{ name: 'something', why: 'all of it is known beforehand' }] };
 }
 
 // The same model where chance has a part: two runs, one of which does not end.
@@ -196,6 +136,6 @@ export function endless(sample) {
   const [a, b, c] = shown.frames;
   const back = { up: 'down', down: 'up', left: 'right', right: 'left' }[b.action];
   shown.frames = [a, b, { ...c, action: back }, { ...b, action: null }];
-  Object.assign(shown, { repeats_from: 1, repeats_text: 'it never delivers the parcel', flip: null, decisive: { ...shown.decisive, frame: 1 } });
+  Object.assign(shown, { repeats_from: 1, repeats_text: 'it never delivers the parcel', decisive: { ...shown.decisive, frame: 1 } });
   return lesson;
 }

@@ -14,7 +14,7 @@ import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
-import { launch, openReport, requireFrom } from './browser.mjs';
+import { launch, openReport, requireFrom, violations } from './browser.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -79,25 +79,6 @@ async function openDetails(page, { all }) {
   await page.waitForTimeout(100);
 }
 
-async function violations(page) {
-  // From the debugger, so that the page's policy stays as it is.
-  await page.evaluate(axeSource);
-  // Drawings are hidden from assistive technology, their text alternative is around them; thousands
-  // of marks would take axe a minute.
-  const { violations: found } = await page.evaluate(() =>
-    axe.run({ exclude: ['.drawing'] }, { resultTypes: ['violations'] }),
-  );
-  return found
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(
-      ({ id, nodes }) =>
-        `${id}: ${nodes
-          .slice(0, 3)
-          .map(({ html }) => html.slice(0, 160))
-          .join(' | ')}`,
-    );
-}
-
 // How a colour is seen: CIE L*a*b* of what is left of it (Machado, Oliveira and Fernandes 2009).
 const kVision = {
   protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
@@ -138,7 +119,8 @@ describe('a report', () => {
           await page.screenshot({ path: join(values.screenshots, `${look.name}.png`), fullPage: true });
         }
         await openDetails(page, { all: false });
-        assert.deepEqual(await violations(page), []);
+        // Drawings are hidden from assistive technology; thousands of marks would take axe a minute.
+        assert.deepEqual(await violations(page, axeSource, ['.drawing']), []);
         await openDetails(page, { all: true });
         const { page: body, view } = await page.evaluate(() => ({
           page: document.documentElement.scrollWidth,

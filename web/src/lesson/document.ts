@@ -10,10 +10,6 @@ export interface Sentence {
   text: string;
 }
 
-export interface Flip extends Board {
-  text: string;
-}
-
 // A board on which somebody drives the robot: its start in the table of moves, and what the robot's own path counts.
 export interface Driven extends Board {
   state: number;
@@ -27,7 +23,6 @@ export interface Demonstration extends Driven {
   conveys: Sentence[];
   alternative: Path | null;
   decisive: { frame: number; cell?: Place } | null;
-  flip: Flip | null;
 }
 
 export interface Test extends Driven {

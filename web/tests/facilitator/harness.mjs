@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { launch, requireFrom } from '../browser.mjs';
+import { launch, requireFrom, violations } from '../browser.mjs';
 import { MockServer, kTokens } from '../facilitator_mock.mjs';
 
 export const openTab = (page, name) => page.click(`nav button:text-is("${name}")`);
@@ -87,12 +87,8 @@ export class Harness {
     }
   }
 
-  async violations(page) {
-    await page.evaluate(this.axe);
-    const { violations: found } = await page.evaluate(() => axe.run(document, { resultTypes: ['violations'] }));
-    return found
-      .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-      .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
+  violations(page) {
+    return violations(page, this.axe);
   }
 
   async shoot(page, name) {

@@ -177,6 +177,7 @@ export function lookTests({ withPage, violations, shoot }) {
       };
       await openTab(page, 'Rooms');
       await page.click('.rooms button:text-is("Room A1")');
+      await page.click('.deep summary');
       await page.waitForSelector('.bars li');
       assert.equal(await page.locator('.bars li').count(), 5);
       assert.match(await page.textContent('.spheres'), /this domain has 4/);
