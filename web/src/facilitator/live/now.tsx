@@ -9,6 +9,7 @@ import { counted, isOver, seatTitle } from '../words';
 const kSlowest = 45_000; // ms; nobody is stuck before
 const kTimes = 3; // so many times as long as the group usually takes for an answer
 const kWrong = 3; // answers in a row
+const kFew = 3; // people whose names are told
 const kMany = 6; // answers of which not half were right
 
 function usualMs(answers: Answer[]): number {
@@ -48,7 +49,7 @@ export function Now({ room, detail, study }: { room: RoomRow; detail: RoomDetail
   });
   const isWaiting = room.seats.some(({ stage }) => stage === 'wait');
   const slow = room.seats.filter((seat) => isWaiting && seat.presence === 'here' && !isOver(seat) && seat.stage !== 'wait');
-  const waited = [...away.map((seat) => `${seatTitle(seat)}, away for ${duration(now - seat.since_ms)} (of ${study.grace_s} s)`), ...slow.map(seatTitle)];
+  const waited = [...away.map((seat) => `${seatTitle(seat)}, away for ${duration(now - seat.since_ms)} (of ${study.grace_s} s)`), ...(slow.length > kFew ? [`${slow.length} people`] : slow.map(seatTitle))];
   const { forecast } = room;
   return (
     <dl class="now-facts">

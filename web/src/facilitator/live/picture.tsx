@@ -15,7 +15,7 @@ import { useWindowHeight } from './width';
 // Pixels, as in live.css. What the table leaves of the window is for spheres and charts, so that everything is
 // visible without scrolling.
 const kTableRow = 22;
-const kAround = 268; // bars, heads and gaps
+const kAround = 230; // bars, heads and gaps
 const kSpheres = { share: 0.68, least: 150, most: 330 };
 const kChart = { least: 80, most: 190 };
 
