@@ -104,7 +104,6 @@ export interface ParticipantView {
     size: number;
     since_ms: number;
     leave_after_ms: number; // from when on one may leave
-    reserve?: boolean; // the seats are taken; who waits gets one that becomes free
     until_ms?: number;
   };
   progress?: { part: number; parts: number; round: number; most: number; done: number };

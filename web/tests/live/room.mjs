@@ -236,7 +236,7 @@ export class Room {
     const present = this.seats.filter(({ stage, present: here }) => stage === 'lobby' && here).length;
     const leave_after_ms = since + 300_000;
     const { size } = this.options;
-    return { present, size, since_ms: since, leave_after_ms, reserve: false };
+    return { present, size, since_ms: since, leave_after_ms };
   }
 
   feedback(person, part) {

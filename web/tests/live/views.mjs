@@ -155,7 +155,6 @@ export function makeViews(lesson, now = Date.now()) {
   views['lobby-leave'].lobby.leave_after_ms = now - 1000;
   views['predict-limit'] = structuredClone(views.predict);
   views['predict-limit'].limit_ms = now + 25_000;
-  views['lobby-reserve'] = { ...views.lobby, lobby: { ...views.lobby.lobby, reserve: true } };
   const large = largeBoard(lesson.domain);
   views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
   room.worlds.set('hole', { table: holeWorld(large) });

@@ -17,15 +17,11 @@ export function Lobby({ lobby, view, connection }: ScreenProps & { lobby: Shown 
       <Heading>{t('lobby.title')}</Heading>
       <Seats present={present} size={size} />
       <p class="lead" role="status">
-        {lobby.reserve
-          ? t('lobby.reserve')
-          : missing === 0
-            ? t('lobby.all')
-            : `${t('lobby.present', { n: present, size })} ${t('lobby.missing', { n: missing })}`}
+        {missing === 0 ? t('lobby.all') : `${t('lobby.present', { n: present, size })} ${t('lobby.missing', { n: missing })}`}
       </p>
       <Since ms={lobby.since_ms} />
       <NextStep>
-        <p>{t(lobby.reserve ? 'lobby.reserve_next' : 'lobby.next')}</p>
+        <p>{t('lobby.next')}</p>
         <Limit until={lobby.until_ms} />
         <Leave lobby={lobby} connection={connection} />
       </NextStep>
