@@ -19,6 +19,7 @@ interface Props extends ScreenProps {
 
 // What is sent, by why somebody is asked: before, during or after the lessons.
 const kCommands = { screening: 'screen', predict: 'answer', exam: 'examine' } as const;
+const kTitles = { screening: 'screening.title', predict: 'predict.title', exam: 'exam.title' } as const;
 
 export function Predict(props: Props): JSX.Element {
   const { task, token, kind, view } = props;
@@ -29,7 +30,7 @@ export function Predict(props: Props): JSX.Element {
   return (
     <>
       <p class="kicker">{t(kind === 'exam' ? 'exam.count' : 'predict.count', { index: task.index + 1, of: task.of })}</p>
-      <Heading>{t(`${kind}.title`)}</Heading>
+      <Heading>{t(kTitles[kind])}</Heading>
       <p class="lead">{t(question[kind])}</p>
       <Job board={task.board} />
       <WorldName board={task.board} />
