@@ -156,6 +156,7 @@ export function makeViews(lesson, now = Date.now()) {
   views['predict-limit'] = structuredClone(views.predict);
   views['predict-limit'].limit_ms = now + 25_000;
   const large = largeBoard(lesson.domain);
+  views.exam = { ...views.predict, stage: 'exam', progress: undefined, predict: { ...views.predict.predict, of: 12, draft: [] } };
   views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
   room.worlds.set('hole', { table: holeWorld(large) });
   room.worlds.set('large', makeWorld(large.domain, large, 'large'));
