@@ -301,21 +301,20 @@ int rehearse(const AuditCommandOptions& options, Console& console) {
   const auto text = [&] {
     const auto& taught = kinds.front();
     TextTable found{"rr"};
-    found.add({"boards", "understood and found"});
+    found.add({"boards", "components understood that are found"});
     for (std::size_t i = 0; i < kExamLengths.size(); ++i) {
       found.add({std::to_string(kExamLengths[i]), share_in_words(taught.findings[i].rightly, taught.understood)});
     }
     TextTable table{"lrrrrr"};
-    table.add({"people", "of them", "rather wrong", "yet found", "found, right < 80 %", "boards"});
+    table.add({"people", "number", "mostly wrong", "passed anyway", "passed below 80 %", "boards"});
     for (const auto& kind : kinds) {
       table.add({kind.kind, std::to_string(kind.people), std::to_string(kind.mistaken),
                  std::to_string(kind.findings.back().wrongly), std::to_string(kind.findings.back().nearly),
                  fmt::format("{:.1f}", static_cast<double>(kind.boards) / static_cast<double>(kind.people))});
     }
     return "People who learn as assumed, after an exam of at most so many boards\n" + found.text(console) +
-           "\nAll kinds of people, at the end of the exam: who rather gets some component wrong, and who is yet said "
-           "to "
-           "understand it\n" +
+           "\nAll kinds of people: how many get some component wrong more often than right,\n"
+           "how many of them are said to understand it, and how many who get it right less\nthan 80 % of the time\n" +
            table.text(console);
   };
   console.print([&] { return rehearsal_json(atlas, kinds, program_name()); }, text);

@@ -16,7 +16,7 @@ namespace kith {
 namespace {
 
 constexpr const char* kTeacherOfRehearsals = "plan";
-constexpr double kRatherWrong = 0.5;
+constexpr double kMostlyWrong = 0.5;
 
 // Keeps the person as lessons leave them.
 class AfterTeaching final : public TeamObserver {
@@ -48,7 +48,7 @@ RehearsedKind rehearse_person(TeachingCache& cache, const StudySpec& spec, std::
   for (std::size_t k = 0; k < cache.atlas().knowledge_components().size(); ++k) {
     levels.push_back(answers_otherwise ? 0.0 : person.mass_in(auditor.constraints_of(k)));
     result.understood += levels.back() >= options.level.enough ? 1u : 0u;
-    if (levels.back() < kRatherWrong) result.mistaken = 1;
+    if (levels.back() < kMostlyWrong) result.mistaken = 1;
   }
   for (const auto length : kExamLengths) {
     while (exam.num_boards() < length) {
@@ -64,7 +64,7 @@ RehearsedKind rehearse_person(TeachingCache& cache, const StudySpec& spec, std::
       if (level >= options.level.enough) {
         ++findings.rightly;
       } else {
-        (level < kRatherWrong ? findings.wrongly : findings.nearly) = 1;
+        (level < kMostlyWrong ? findings.wrongly : findings.nearly) = 1;
       }
     }
   }

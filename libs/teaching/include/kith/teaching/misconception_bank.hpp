@@ -84,7 +84,8 @@ class MisconceptionBank {
   [[nodiscard]] double odds_of_learning() const noexcept { return others_.odds_of_learning(probability_of_learning()); }
   /// How many times as probable the answers are from people who learn than from those of them who guess the answers of
   /// every other period: the product of 2 L / (L + G) over periods and boards, with the probabilities L and G of the
-  /// answers from people who learn and who guess. Of the latter a share of 1 / r reaches r (Ville's inequality).
+  /// answers from people who learn and who guess. At most a share of 1 / r of those who guess so reaches r (Ville's
+  /// inequality), as far as they otherwise answer as L says.
   [[nodiscard]] double odds_against_halves() const noexcept { return odds_against_halves_; }
   /// Boards of an exam so far.
   [[nodiscard]] std::size_t num_boards() const noexcept { return num_boards_; }
