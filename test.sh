@@ -121,8 +121,8 @@ tests_of() { printf 'kith_%s_tests\n' "$@"; }
 labels_of() { printf '^(%s)$' "$(IFS='|' && printf '%s' "$*")"; }
 
 # Where files are read and indices are computed; what is built on that takes most of the time and is left to the night.
-sanitized=(core files random toml geometry mdp domains table)
-threaded=(core mdp bec teaching study runs server)
+sanitized=(core files geometry mdp domains)
+threaded=(core mdp bec teaching study runs service)
 layers=(libs/*/tests)
 layers=("${layers[@]#libs/}")
 layers=("${layers[@]%/tests}")

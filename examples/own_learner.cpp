@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/learners/run_period.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace {

@@ -11,10 +11,10 @@
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "kith/bec/memory_needs.hpp"
+#include "kith/explain/board_svg.hpp"
+#include "kith/explain/inspect_json.hpp"
+#include "kith/explain/region_svg.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/present/board_svg.hpp"
-#include "kith/present/inspect_json.hpp"
-#include "kith/present/region_svg.hpp"
 #include "waiting.hpp"
 
 namespace kith::python {

@@ -3,9 +3,9 @@
 
 #include "arrays.hpp"
 #include "binding.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/geometry/cone_sampler.hpp"
-#include "kith/random/distributions.hpp"
 #include "random.hpp"
 
 namespace kith::python {

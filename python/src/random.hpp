@@ -1,7 +1,7 @@
 #pragma once
 
 #include "binding.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 
 namespace kith::python {
 

@@ -6,9 +6,9 @@
 
 #include "arrays.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/codebook.hpp"
+#include "kith/files/csv_reader.hpp"
 #include "kith/files/published_run.hpp"
-#include "kith/table/codebook.hpp"
-#include "kith/table/csv_reader.hpp"
 #include "waiting.hpp"
 
 namespace kith::python {

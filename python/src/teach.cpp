@@ -4,9 +4,9 @@
 #include "assignment.hpp"
 #include "errors.hpp"
 #include "kith/bec/memory_needs.hpp"
-#include "kith/present/transcript.hpp"
-#include "kith/present/transcript_json.hpp"
 #include "kith/runs/run_folder.hpp"
+#include "kith/study/transcript.hpp"
+#include "kith/study/transcript_json.hpp"
 #include "own_kinds.hpp"
 #include "waiting.hpp"
 

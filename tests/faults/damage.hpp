@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "models.hpp"
 #include "scenario.hpp"
 

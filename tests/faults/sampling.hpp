@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fault_case.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "models.hpp"
 #include "scenario.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "damage.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "kith/random/stream.hpp"
 #include "process.hpp"
 #include "readers.hpp"
 #include "recovery.hpp"

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "kith/table/csv_reader.hpp"
-#include "kith/table/csv_writer.hpp"
-#include "kith/toml/document.hpp"
+#include "kith/files/csv_reader.hpp"
+#include "kith/files/csv_writer.hpp"
+#include "kith/files/document.hpp"
 #include "mutate/csv_edit.hpp"
 #include "mutate/mutate.hpp"
 #include "mutate/structure.hpp"

@@ -131,14 +131,14 @@ minimize() {  # TARGET
 
 # Which lines count, by group; patterns of awk. tests/fuzz/CMakeLists.txt has the layers.
 groups='
-TOML             libs/toml/src/
-tables           libs/table/src/csv_re
+TOML             libs/files/src/
+tables           libs/files/src/csv_re
 domain files     libs/(maps/src/read_|domains/src/(domain_file|read_|condition|exact_vector|reward|wording))
 explicit models  libs/(models/src/|domains/src/(check_model|explicit_family))
 policies         libs/domains/src/policy_file
 study files      libs/study/src/(study_file|read_study_spec|read_prior)
 tables of runs   libs/study/src/read_records
-targets files    libs/study_design/src/(findings|effect|quantity)
+targets files    libs/analysis/src/(findings|effect|quantity)
 logs of people   libs/fit/src/(import_trials|import_run|open_table|vectors)
 record codec     libs/(runs/src/team_codec|files/src/bytes)
 journal          libs/(runs/src/journal|files/src/sqlite)

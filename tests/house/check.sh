@@ -155,7 +155,7 @@ check_rows() {
 # What reads a column names it by the constant that the column is declared with.
 check_columns() {
   local names
-  names=$(files '*.hpp' | grep '^libs/table/include/kith/table/column_names.hpp$' | xargs -r cat |
+  names=$(files '*.hpp' | grep '^libs/files/include/kith/files/column_names.hpp$' | xargs -r cat |
     grep -oE '"[a-z_0-9]+"' | tr -d '"' | sort -u | paste -sd'|')
   files '*.cpp' | grep -E '^libs/(analysis|fit|report)/src/' |
     search -nE "(\\.|required_)(factor|numbers|texts|cells|boolean|integer|text|count|has)\\(([a-z]+, )?\"(${names:-none})\"" | none

@@ -16,8 +16,8 @@ tidy_tree() {
   printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
   printf 'add_subdirectory(live)\nadd_subdirectory(table)\nadd_subdirectory(report)\n' >>libs/CMakeLists.txt
   printf 'kith_module(live)\n' >libs/live/CMakeLists.txt
-  mkdir -p libs/table/include/kith/table libs/report/src
-  printf 'kith_module(table)\n' >libs/table/CMakeLists.txt
+  mkdir -p libs/files/include/kith/files libs/report/src
+  printf 'kith_module(files)\n' >libs/files/CMakeLists.txt
   printf 'kith_module(report)\n' >libs/report/CMakeLists.txt
   printf '## Layers\n\n```text\nlow high  what is below\nlive table report  people\n```\n\n## Read first\n' >docs/architecture.md
   printf '#pragma once\nstruct Left {\n  constexpr Kind kKind{"left", "leave"};\n};\n' >libs/live/include/kith/live/room_event.hpp
@@ -25,7 +25,7 @@ tidy_tree() {
   mkdir -p apps/lesson/src
   printf 'set(layers low live)\n' >apps/lesson/CMakeLists.txt
   printf '#pragma once\nconstexpr bool any_of(int range);\n' >apps/lesson/src/portability.hpp
-  printf '#pragma once\ninline constexpr char kTeam[] = "team";\n' >libs/table/include/kith/table/column_names.hpp
+  printf '#pragma once\ninline constexpr char kTeam[] = "team";\n' >libs/files/include/kith/files/column_names.hpp
   printf '// Reads tables.\n' >libs/report/src/run_data.cpp
   printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
   printf '@misc{known2001,\n}\n' >docs/references.bib

@@ -102,7 +102,7 @@ STAGE = {
                "        }\n        return;")]),
     "libs/store/src/room_history.cpp": ("room_history.cpp", [
         before(r"void note\(const Continued&\)", "  void note(const Compared&) {}")]),
-    "libs/server/src/bot_mind.cpp": ("bot_mind.cpp", [
+    "libs/service/src/bot_mind.cpp": ("bot_mind.cpp", [
         before(FEEDBACK, "    case RoomPhase::kComparing:\n"
                '      return BotAct{.type = "compare", .body = Json::object(), .key = stage + period, .pace = 0.3};')]),
     WEB + "live/protocol.ts": ("compar", [
@@ -141,7 +141,7 @@ def complaints_without(left_out, node, modules, compiler):
     """What the compilers say of a tree with the stage but for one file, or with all of it."""
     with tempfile.TemporaryDirectory() as folder:
         tree = pathlib.Path(folder)
-        layers = ["libs/study/include", "libs/live", "libs/store/src", "libs/store/include", "libs/server/src"]
+        layers = ["libs/study/include", "libs/live", "libs/store/src", "libs/store/include", "libs/service/src"]
         for layer in layers if left_out is None or left_out.startswith("libs") else []:
             shutil.copytree(ROOT / layer, tree / layer, ignore=shutil.ignore_patterns("tests"))
         if left_out is None or left_out.startswith("web"):

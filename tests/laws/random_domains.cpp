@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith::laws {
 namespace {

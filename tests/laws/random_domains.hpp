@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "rewriting.hpp"
 
 namespace kith::laws {

@@ -8,10 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "kith/core/distributions.hpp"
+#include "kith/files/document.hpp"
 #include "kith/learners/learner_model.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/teaching/strategy.hpp"
-#include "kith/toml/document.hpp"
 
 namespace kith::laws {
 namespace {

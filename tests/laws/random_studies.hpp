@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/study/study_file.hpp"
 
 namespace kith::laws {

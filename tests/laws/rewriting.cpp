@@ -11,9 +11,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "kith/core/distributions.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "kith/random/distributions.hpp"
-#include "kith/toml/document.hpp"
+#include "kith/files/document.hpp"
 
 namespace kith::laws {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "kith/core/stream.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/random/stream.hpp"
-#include "kith/toml/value.hpp"
+#include "kith/files/value.hpp"
 
 namespace kith::laws {
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <string>
 
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/bracket.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/target.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/random/distributions.hpp"
 #include "random_domains.hpp"
 
 namespace kith::laws {

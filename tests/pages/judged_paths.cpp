@@ -7,11 +7,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/judgement.hpp"
+#include "kith/explain/move_table.hpp"
 #include "kith/live/world_json.hpp"
-#include "kith/present/move_table.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -1,6 +1,6 @@
 #include "evidence.hpp"
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith::rivals {
 namespace {

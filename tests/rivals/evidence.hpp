@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kith/core/stream.hpp"
 #include "kith/geometry/cone.hpp"
-#include "kith/random/stream.hpp"
 
 namespace kith::rivals {
 

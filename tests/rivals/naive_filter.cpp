@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith::rivals {
 

@@ -1,4 +1,4 @@
-// Writes the table of libs/stats/tests/reference/README.md, or checks that it is what the tests compute.
+// Writes the table of libs/analysis/tests/reference/README.md, or checks that it is what the tests compute.
 //
 //   node tests/validation/agreement.mjs KITH_STATS_TESTS --write
 //   node tests/validation/agreement.mjs KITH_STATS_TESTS --check
@@ -36,4 +36,4 @@ function tableOf(lines, printed) {
   };
 }
 
-updateTestTable({ name: 'agreement', file: 'libs/stats/tests/reference/README.md', filter: 'Agreement.*', property: 'agreement', tableOf });
+updateTestTable({ name: 'agreement', file: 'libs/analysis/tests/reference/README.md', filter: 'Agreement.*', property: 'agreement', tableOf });

@@ -15,14 +15,14 @@
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/exports.hpp"
 #include "kith/analysis/table_model.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/explain/wrapped.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/codebook.hpp"
 #include "kith/files/file_set.hpp"
 #include "kith/files/published_run.hpp"
-#include "kith/present/json.hpp"
-#include "kith/present/wrapped.hpp"
-#include "kith/table/codebook.hpp"
-#include "kith/table/table_text.hpp"
+#include "kith/files/table_text.hpp"
 #include "work_notice.hpp"
 
 namespace kith::cli {

@@ -6,13 +6,13 @@
 #include "build_facts.hpp"
 #include "command.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/board_json.hpp"
+#include "kith/explain/legend.hpp"
+#include "kith/explain/picture.hpp"
 #include "kith/explain/question.hpp"
 #include "kith/explain/runs.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/present/board_json.hpp"
-#include "kith/present/legend.hpp"
-#include "kith/present/picture.hpp"
-#include "kith/present/wrapped.hpp"
+#include "kith/explain/wrapped.hpp"
 #include "work_notice.hpp"
 
 namespace kith::cli {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "console.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/recovery.hpp"
-#include "kith/present/json.hpp"
 
 namespace kith::cli {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kind_lists.hpp"
-#include "kith/present/wrapped.hpp"
+#include "kith/explain/wrapped.hpp"
 
 namespace kith::cli {
 namespace {

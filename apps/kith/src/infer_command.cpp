@@ -14,9 +14,9 @@
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/policy_file.hpp"
 #include "kith/domains/variation.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/file_set.hpp"
-#include "kith/present/json.hpp"
 #include "page.hpp"
 #include "work_notice.hpp"
 

@@ -16,9 +16,9 @@
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/other_models.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/document.hpp"
+#include "kith/files/file.hpp"
 #include "kith/teaching/older_robot.hpp"
-#include "kith/toml/document.hpp"
-#include "kith/toml/file.hpp"
 
 namespace kith::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 
 namespace kith::cli {
 namespace {

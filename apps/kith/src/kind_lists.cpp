@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "kith/belief/aggregation.hpp"
+#include "kith/explain/wrapped.hpp"
 #include "kith/learners/discussion.hpp"
 #include "kith/learners/learner_model.hpp"
-#include "kith/present/wrapped.hpp"
 #include "kith/teaching/stop_rule.hpp"
 #include "kith/teaching/strategy.hpp"
 

@@ -12,7 +12,7 @@
 #include "embedded.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
-#include "kith/maps/occupancy_grid.hpp"
+#include "kith/domains/occupancy_grid.hpp"
 #include "kith/service/lesson_log.hpp"
 #include "kith/store/session_study.hpp"
 #include "kith/study/study_file.hpp"

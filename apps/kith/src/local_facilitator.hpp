@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/service/live_service.hpp"
 
 namespace kith::cli {

@@ -15,7 +15,7 @@
 #include "help.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 #include "standard_streams.hpp"
 
 namespace kith::cli {

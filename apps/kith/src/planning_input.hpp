@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "kith/analysis/findings.hpp"
 #include "kith/bec/atlas.hpp"
 #include "kith/study/study.hpp"
-#include "kith/study_design/findings.hpp"
 
 namespace kith::cli {
 

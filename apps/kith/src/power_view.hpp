@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "console.hpp"
-#include "kith/present/json.hpp"
-#include "kith/study_design/power.hpp"
+#include "kith/analysis/study_power.hpp"
+#include "kith/explain/json.hpp"
 
 // How `kith power` shows its results.
 namespace kith::cli {

@@ -3,10 +3,10 @@
 #include <span>
 #include <string>
 
+#include "kith/analysis/study_power.hpp"
 #include "kith/domains/domain.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study_spec.hpp"
-#include "kith/study_design/power.hpp"
 
 namespace kith::cli {
 

@@ -12,9 +12,9 @@
 
 #include "exit_codes.hpp"
 #include "interrupt.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/live/world_json.hpp"
-#include "kith/present/json.hpp"
 #include "kith/store/event_file.hpp"
 
 namespace kith::cli {

@@ -10,8 +10,8 @@
 
 #include "console.hpp"
 #include "kith/live/live_study.hpp"
-#include "kith/server/rehearsal.hpp"
 #include "kith/service/live_service.hpp"
+#include "kith/service/rehearsal.hpp"
 #include "serve_options.hpp"
 
 namespace kith::cli {

@@ -6,10 +6,10 @@
 
 #include "command.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
-#include "kith/present/json.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "progress.hpp"

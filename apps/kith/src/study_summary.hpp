@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "console.hpp"
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/study/summary.hpp"
 
 namespace kith::cli {

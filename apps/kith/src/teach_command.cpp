@@ -9,9 +9,9 @@
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
-#include "kith/present/transcript.hpp"
-#include "kith/present/transcript_json.hpp"
 #include "kith/runs/run_folder.hpp"
+#include "kith/study/transcript.hpp"
+#include "kith/study/transcript_json.hpp"
 
 namespace kith::cli {
 namespace {

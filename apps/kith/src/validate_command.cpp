@@ -8,12 +8,12 @@
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/document.hpp"
 #include "kith/live/live_study.hpp"
-#include "kith/present/json.hpp"
 #include "kith/store/session_study.hpp"
 #include "kith/study/study_file.hpp"
-#include "kith/toml/document.hpp"
 
 namespace kith::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "kith/server/asset.hpp"
+#include "kith/service/asset.hpp"
 
 namespace kith::cli {
 

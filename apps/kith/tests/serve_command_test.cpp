@@ -1,4 +1,4 @@
-// kith serve: how it starts, what it prints, how it stops. What it serves is tested in libs/server and libs/service.
+// kith serve: how it starts, what it prints, how it stops. What it serves is tested in libs/service.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "kith/server/rehearsal.hpp"
+#include "kith/service/rehearsal.hpp"
 #include "kith/store/event_file.hpp"
 #include "run_kith.hpp"
 #include "slow_study.hpp"

@@ -26,10 +26,10 @@
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/live/lesson_log.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
-#include "kith/present/json.hpp"
 #include "kith/study/study_file.hpp"
 
 namespace kith {

@@ -1,6 +1,6 @@
 #pragma once
 
-// In place of libcsv, which Debian has compiled for another machine: as much of it as libs/table uses, in strict mode.
+// In place of libcsv, which Debian has compiled for another machine: as much of it as libs/files uses, in strict mode.
 
 #include <cstddef>
 #include <string>

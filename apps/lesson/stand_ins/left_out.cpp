@@ -7,8 +7,8 @@
 #include "kith/core/memory.hpp"
 #include "kith/core/parallel_loop.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/domains/occupancy_grid.hpp"
 #include "kith/files/base64.hpp"
-#include "kith/maps/occupancy_grid.hpp"
 
 namespace kith {
 

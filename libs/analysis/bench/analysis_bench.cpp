@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kith/analysis/analysis.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "run_findings.hpp"
 
 namespace kith {

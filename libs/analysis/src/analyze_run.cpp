@@ -5,8 +5,8 @@
 
 #include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
-#include "kith/table/column_names.hpp"
-#include "kith/toml/document.hpp"
+#include "kith/files/column_names.hpp"
+#include "kith/files/document.hpp"
 #include "model_means.hpp"
 #include "run_findings.hpp"
 

@@ -10,8 +10,8 @@
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/memory.hpp"
-#include "kith/table/csv_reader.hpp"
-#include "kith/table/table_text.hpp"
+#include "kith/files/csv_reader.hpp"
+#include "kith/files/table_text.hpp"
 
 namespace kith {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kith/table/csv_writer.hpp"
+#include "kith/files/csv_writer.hpp"
 #include "shown.hpp"
 
 namespace kith {

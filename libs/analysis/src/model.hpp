@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "kith/analysis/analysis.hpp"
+#include "kith/analysis/anova.hpp"
+#include "kith/analysis/effect_size.hpp"
+#include "kith/analysis/factor.hpp"
 #include "kith/analysis/finding.hpp"
-#include "kith/stats/anova.hpp"
-#include "kith/stats/effect_size.hpp"
-#include "kith/stats/factor.hpp"
-#include "kith/stats/linear_model.hpp"
-#include "kith/stats/nested_model.hpp"
+#include "kith/analysis/linear_model.hpp"
+#include "kith/analysis/nested_model.hpp"
 
 namespace kith {
 

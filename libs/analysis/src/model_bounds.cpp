@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kith/stats/effect_size.hpp"
-#include "kith/stats/tests.hpp"
+#include "kith/analysis/effect_size.hpp"
+#include "kith/analysis/tests.hpp"
 #include "kith/study/outcomes.hpp"
 #include "model.hpp"
 

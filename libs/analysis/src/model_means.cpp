@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/analysis/multiple.hpp"
 #include "kith/core/error.hpp"
-#include "kith/stats/multiple.hpp"
 #include "model_means.hpp"
 #include "shown.hpp"
 

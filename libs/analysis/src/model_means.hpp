@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/stats/marginal_means.hpp"
+#include "kith/analysis/marginal_means.hpp"
 #include "model.hpp"
 
 namespace kith {

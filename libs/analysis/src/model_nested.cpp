@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "kith/analysis/decimals.hpp"
-#include "kith/stats/design_effect.hpp"
-#include "kith/stats/nested_model.hpp"
+#include "kith/analysis/design_effect.hpp"
+#include "kith/analysis/nested_model.hpp"
 #include "model_means.hpp"
 #include "shown.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kith/stats/survival.hpp"
+#include "kith/analysis/survival.hpp"
 #include "model.hpp"
 #include "shown.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kith/stats/moments.hpp"
+#include "kith/analysis/moments.hpp"
 #include "model_means.hpp"
 #include "shown.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kith/stats/distributions.hpp"
-#include "kith/stats/moments.hpp"
+#include "kith/analysis/distributions.hpp"
+#include "kith/analysis/moments.hpp"
 #include "model_means.hpp"
 
 namespace kith {

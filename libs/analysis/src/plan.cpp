@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "kith/random/distributions.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/core/distributions.hpp"
+#include "kith/files/column_names.hpp"
 #include "model_means.hpp"
 #include "run_findings.hpp"
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <map>
 
-#include "kith/stats/clustered_tests.hpp"
-#include "kith/stats/moments.hpp"
-#include "kith/stats/nested_model.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/analysis/clustered_tests.hpp"
+#include "kith/analysis/moments.hpp"
+#include "kith/analysis/nested_model.hpp"
+#include "kith/files/column_names.hpp"
 #include "model_means.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "kith/stats/moments.hpp"
+#include "kith/analysis/moments.hpp"
+#include "kith/files/column_names.hpp"
 #include "kith/study/read_records.hpp"
-#include "kith/table/column_names.hpp"
 #include "run_findings.hpp"
 
 namespace kith {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "kith/stats/clustered_tests.hpp"
-#include "kith/stats/nested_model.hpp"
+#include "kith/analysis/clustered_tests.hpp"
+#include "kith/analysis/nested_model.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
 

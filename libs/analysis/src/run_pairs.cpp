@@ -6,10 +6,10 @@
 #include <map>
 #include <utility>
 
+#include "kith/analysis/effect_intervals.hpp"
+#include "kith/analysis/moments.hpp"
 #include "kith/analysis/team_difference.hpp"
-#include "kith/stats/effect_intervals.hpp"
-#include "kith/stats/moments.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/files/column_names.hpp"
 #include "run_findings.hpp"
 #include "shown.hpp"
 
@@ -19,16 +19,16 @@ namespace {
 using Kind = ResultKind;
 
 // The same people under every group strategy: one row of values per block.
-struct Blocks {
+struct TeamBlocks {
   std::vector<std::string> strategies;
   std::vector<std::string> compositions;                   // per block
   std::vector<std::vector<std::optional<double>>> values;  // shape [blocks][strategies]
 };
 
-Blocks blocks_of(const RunTeams& teams, const std::vector<double>& values) {
+TeamBlocks blocks_of(const RunTeams& teams, const std::vector<double>& values) {
   const auto rows = group_teams(teams);
   const auto strategy = selected(teams.strategy, rows);
-  Blocks blocks{strategy.levels, {}, {}};
+  TeamBlocks blocks{strategy.levels, {}, {}};
   std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = rows[i];
@@ -74,7 +74,7 @@ std::vector<ShownColumn<ComparisonResult>> paired_columns(const std::string& fir
           show(&ComparisonResult::d_high, "d, upper limit", Kind::kFraction)};
 }
 
-ComparisonResult compare(const Blocks& blocks, std::size_t a, std::size_t b, double confidence, Finding& finding) {
+ComparisonResult compare(const TeamBlocks& blocks, std::size_t a, std::size_t b, double confidence, Finding& finding) {
   std::vector<double> first, second;
   for (const auto& block : blocks.values) {
     if (!block[a] || !block[b]) continue;
@@ -121,7 +121,7 @@ void add_sphericity(const AnovaTable& table, const Sphericity& sphericity, doubl
 }
 
 // Strategy and its interaction with composition, with differences between people taken out.
-void add_blocked(const Blocks& blocks, double alpha, Finding& finding) {
+void add_blocked(const TeamBlocks& blocks, double alpha, Finding& finding) {
   std::vector<double> values;
   std::vector<std::string> strategy, composition, block;
   for (std::size_t b = 0; b < blocks.values.size(); ++b) {

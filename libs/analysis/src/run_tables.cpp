@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
+#include "kith/files/column_names.hpp"
+#include "kith/files/document.hpp"
 #include "kith/study/read_records.hpp"
-#include "kith/table/column_names.hpp"
-#include "kith/toml/document.hpp"
 
 namespace kith {
 namespace {

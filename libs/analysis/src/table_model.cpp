@@ -8,8 +8,8 @@
 
 #include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
-#include "kith/table/column_names.hpp"
-#include "kith/table/csv_writer.hpp"
+#include "kith/files/column_names.hpp"
+#include "kith/files/csv_writer.hpp"
 #include "model_means.hpp"
 #include "result_words.hpp"
 

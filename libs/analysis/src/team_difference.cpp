@@ -1,6 +1,6 @@
 #include "kith/analysis/team_difference.hpp"
 
-#include "kith/stats/moments.hpp"
+#include "kith/analysis/moments.hpp"
 
 namespace kith {
 

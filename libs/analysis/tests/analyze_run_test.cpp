@@ -9,8 +9,8 @@
 
 #include "findings.hpp"
 #include "kith/analysis/exports.hpp"
+#include "kith/analysis/tests.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "kith/stats/tests.hpp"
 #include "resealed.hpp"
 
 namespace kith {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

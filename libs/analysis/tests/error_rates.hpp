@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kith/analysis/analysis.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 // How often each documented analysis finds an effect that is not there: 1000 simulated studies without effects, tests
 // at 5 %. The standard error of a rate of 5 % is 0.7 %. README.md has the rates; error_rates.mjs writes them there

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/random/distributions.hpp"
 #include "value_iteration.hpp"
 
 namespace kith {

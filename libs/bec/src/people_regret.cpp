@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 
 namespace kith {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "item_delivery.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/coverage_set.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "item_delivery.hpp"
 #include "kith/bec/comparison.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/coverage_set.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -9,12 +9,12 @@
 
 #include "item_delivery.hpp"
 #include "kith/bec/atlas.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/policy_file.hpp"
 #include "kith/domains/variation.hpp"
 #include "kith/mdp/behaviour.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

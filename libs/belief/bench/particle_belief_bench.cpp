@@ -10,7 +10,7 @@
 #include "../tests/observed_truth.hpp"
 #include "kith/belief/consistency.hpp"
 #include "kith/belief/team_belief.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

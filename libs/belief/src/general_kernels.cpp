@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "scratch.hpp"
 
 namespace kith::detail {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kith/belief/likelihood.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/random/stream.hpp"
 
 // What kernels.hpp does in three dimensions, in d = 2 to 8: the same meaning, by plain loops in double precision.
 // Points are one array of shape [d, n], axis by axis.

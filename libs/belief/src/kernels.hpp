@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kith/belief/likelihood.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/random/stream.hpp"
 #include "scratch.hpp"
 
 // The inner loops of the particle filter, over structures of arrays. They are

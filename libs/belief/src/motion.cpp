@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "kernels.hpp"
+#include "kith/core/batch_normal.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/core/vector_clones.hpp"
-#include "kith/random/batch_normal.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith::detail {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "kernels.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
-#include "kith/random/distributions.hpp"
 #include "scratch.hpp"
 #include "sphere_points.hpp"
 #include "systematic.hpp"

@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "kith/core/assert.hpp"
+#include "kith/core/batch_normal.hpp"
+#include "kith/core/eighth_turn.hpp"
 #include "kith/core/integer_vector.hpp"
 #include "kith/core/vector_clones.hpp"
-#include "kith/random/batch_normal.hpp"
-#include "kith/random/eighth_turn.hpp"
 
 namespace kith::detail {
 namespace {

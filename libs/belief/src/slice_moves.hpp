@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "kith/core/stream.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/random/stream.hpp"
 
 namespace kith::detail {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kith/belief/likelihood.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/random/stream.hpp"
 
 // Points of the sphere in d = 2 to 8 dimensions: three have kernels of their own (kernels.hpp), the others share those
 // of general_kernels.hpp. This is the one place that chooses between them.

@@ -9,7 +9,7 @@
 
 #include "kith/belief/aggregation.hpp"
 #include "kith/belief/team_belief.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "script.hpp"
 
 namespace kith {

@@ -8,8 +8,8 @@
 #include "kith/belief/consistency.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "kith/belief/team_belief.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/cone_sampler.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "kith/random/batch_normal.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/batch_normal.hpp"
+#include "kith/core/distributions.hpp"
 #include "script.hpp"
 
 namespace kith::detail {

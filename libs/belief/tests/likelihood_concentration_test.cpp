@@ -7,7 +7,7 @@
 
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/particle_belief.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/cone.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith::testing {
 

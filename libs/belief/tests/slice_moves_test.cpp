@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/cone_sampler.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "script.hpp"
 
 namespace kith {

@@ -3,10 +3,10 @@
 #include <string>
 
 #include "domain_texts.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kith/domains/domain.hpp"
-#include "kith/maps/family_map.hpp"
+#include "kith/domains/family_map.hpp"
 
 namespace kith::detail {
 

@@ -8,7 +8,7 @@
 
 #include "explicit_family.hpp"
 #include "kith/domains/domain.hpp"
-#include "kith/maps/family_map.hpp"
+#include "kith/domains/family_map.hpp"
 #include "state_layout.hpp"
 
 namespace kith {

@@ -13,9 +13,9 @@
 #include "family.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/other_models.hpp"
-#include "kith/toml/document.hpp"
-#include "kith/toml/file.hpp"
-#include "kith/toml/reader.hpp"
+#include "kith/files/document.hpp"
+#include "kith/files/file.hpp"
+#include "kith/files/reader.hpp"
 #include "read_model.hpp"
 #include "reward.hpp"
 

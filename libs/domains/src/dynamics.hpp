@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "condition.hpp"
-#include "kith/maps/family_map.hpp"
+#include "kith/domains/family_map.hpp"
 
 namespace kith::detail {
 

@@ -7,7 +7,7 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/models/raw_model.hpp"
+#include "kith/domains/raw_model.hpp"
 #include "model_drawing.hpp"
 
 namespace kith {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics.hpp"
-#include "kith/maps/family_map.hpp"
+#include "kith/domains/family_map.hpp"
 #include "state_layout.hpp"
 #include "state_numbers.hpp"
 

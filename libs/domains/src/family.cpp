@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "explore.hpp"
-#include "kith/maps/thinning.hpp"
+#include "kith/domains/thinning.hpp"
 
 namespace kith::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include "domain_data.hpp"
 #include "dynamics.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/files/reader.hpp"
 #include "kith/mdp/planner.hpp"
-#include "kith/toml/reader.hpp"
 #include "reward.hpp"
 
 namespace kith::detail {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "explicit_family.hpp"
-#include "kith/models/model_formats.hpp"
+#include "kith/domains/model_formats.hpp"
 
 namespace kith {
 namespace detail {

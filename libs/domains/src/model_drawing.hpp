@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "kith/domains/family_map.hpp"
 #include "kith/domains/grid_map.hpp"
-#include "kith/maps/family_map.hpp"
-#include "kith/maps/named_files.hpp"
-#include "kith/models/raw_model.hpp"
-#include "kith/toml/reader.hpp"
+#include "kith/domains/named_files.hpp"
+#include "kith/domains/raw_model.hpp"
+#include "kith/files/reader.hpp"
 
 namespace kith {
 

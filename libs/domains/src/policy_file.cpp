@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/models/model_text.hpp"
-#include "kith/table/csv_reader.hpp"
-#include "kith/toml/reader.hpp"
+#include "kith/domains/model_text.hpp"
+#include "kith/files/csv_reader.hpp"
+#include "kith/files/reader.hpp"
 
 namespace kith {
 namespace {

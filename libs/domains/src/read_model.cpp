@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kith/models/model_formats.hpp"
+#include "kith/domains/model_formats.hpp"
 
 namespace kith::detail {
 namespace {

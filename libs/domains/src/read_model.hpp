@@ -6,8 +6,8 @@
 
 #include "dynamics.hpp"
 #include "explicit_family.hpp"
-#include "kith/maps/named_files.hpp"
-#include "kith/toml/reader.hpp"
+#include "kith/domains/named_files.hpp"
+#include "kith/files/reader.hpp"
 #include "model_drawing.hpp"
 
 namespace kith::detail {

@@ -5,7 +5,7 @@
 
 #include "dynamics.hpp"
 #include "kith/domains/domain.hpp"
-#include "kith/toml/reader.hpp"
+#include "kith/files/reader.hpp"
 
 namespace kith::detail {
 

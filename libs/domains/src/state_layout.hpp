@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kith/maps/family_map.hpp"
+#include "kith/domains/family_map.hpp"
 
 namespace kith::detail {
 

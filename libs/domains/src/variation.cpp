@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "kith/domains/domain_file.hpp"
-#include "kith/toml/document.hpp"
+#include "kith/files/document.hpp"
 
 namespace kith {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "domains_under_test.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "atlases.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/geometry/cone.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -11,14 +11,14 @@
 namespace kith {
 namespace {
 
-const Domain& item_delivery() { return testing::atlas_of("item-delivery").domain(); }
+const Domain& delivery() { return testing::atlas_of("item-delivery").domain(); }
 constexpr std::size_t kStep = 2;
 
 // What somebody thinks who violates the constraint but agrees with it for `n` fewer or more steps; 0: no limit.
 std::string thinks(const IntegerVector& violated, std::int64_t n = 0) {
   const HalfSpace constraint{violated};
-  if (n == 0) return in_words(item_delivery(), Misbelief{.violated = constraint, .limit = {}, .unit = kStep});
-  return in_words(item_delivery(), weakened(item_delivery(), constraint, kStep, n).value());
+  if (n == 0) return in_words(delivery(), Misbelief{.violated = constraint, .limit = {}, .unit = kStep});
+  return in_words(delivery(), weakened(delivery(), constraint, kStep, n).value());
 }
 
 TEST(Misbelief, IsToldOfWhatIsWorthMoreThanPeopleThink) {
@@ -44,7 +44,7 @@ TEST(Misbelief, IsToldOfWhatIsWorthLessThanPeopleThink) {
 }
 
 TEST(Misbelief, IsTheOppositeWhereWordsDoNotFit) {
-  EXPECT_EQ(thinks({-1, 0, -2}), in_words(item_delivery(), HalfSpace{{1, 0, 2}}));
+  EXPECT_EQ(thinks({-1, 0, -2}), in_words(delivery(), HalfSpace{{1, 0, 2}}));
 }
 
 TEST(Misbelief, IsSaidCarefullyWhereTheRobotIsIndifferent) {
@@ -54,14 +54,14 @@ TEST(Misbelief, IsSaidCarefullyWhereTheRobotIsIndifferent) {
 
 TEST(Misbelief, KnowsWhatThePersonSatisfies) {
   const HalfSpace constraint{{-1, 0, 2}};
-  EXPECT_EQ(weakened(item_delivery(), constraint, kStep, 1)->satisfied(), (HalfSpace{{-1, 0, 1}}));
-  EXPECT_EQ(weakened(item_delivery(), HalfSpace{{1, 0, -4}}, kStep, 2)->satisfied(), (HalfSpace{{1, 0, -6}}));
-  EXPECT_FALSE(weakened(item_delivery(), HalfSpace{{0, 0, 1}}, kStep, 1).has_value());
+  EXPECT_EQ(weakened(delivery(), constraint, kStep, 1)->satisfied(), (HalfSpace{{-1, 0, 1}}));
+  EXPECT_EQ(weakened(delivery(), HalfSpace{{1, 0, -4}}, kStep, 2)->satisfied(), (HalfSpace{{1, 0, -6}}));
+  EXPECT_FALSE(weakened(delivery(), HalfSpace{{0, 0, 1}}, kStep, 1).has_value());
   EXPECT_FALSE((Misbelief{.violated = constraint, .limit = {}, .unit = kStep}.satisfied().has_value()));
 }
 
 TEST(Predictions, AreToldAsReasonsAre) {
-  const auto& domain = item_delivery();
+  const auto& domain = delivery();
   EXPECT_EQ(prediction_in_words(domain, {1, 0, 6}, {0, 0, 8}), "it would rather cross rubble than take 2 more steps");
   EXPECT_EQ(prediction_in_words(domain, {0, 0, 8}, {0, 1, 10}),
             "it would rather do without stopping at the charger than take 2 more steps");

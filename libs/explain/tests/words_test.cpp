@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "atlases.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/reason.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

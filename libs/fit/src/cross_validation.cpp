@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "mixture.hpp"
 
 namespace kith {

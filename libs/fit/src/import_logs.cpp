@@ -5,10 +5,10 @@
 
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/csv_reader.hpp"
+#include "kith/files/table_text.hpp"
 #include "kith/fit/import_run.hpp"
 #include "kith/fit/import_trials.hpp"
-#include "kith/table/csv_reader.hpp"
-#include "kith/table/table_text.hpp"
 #include "open_table.hpp"
 
 namespace kith {

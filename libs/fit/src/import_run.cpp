@@ -9,11 +9,11 @@
 #include "kith/bec/atlas.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/column_names.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/read_records.hpp"
 #include "kith/study/study.hpp"
-#include "kith/table/column_names.hpp"
 #include "open_table.hpp"
 
 namespace kith {

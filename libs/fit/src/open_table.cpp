@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/table/table_text.hpp"
+#include "kith/files/table_text.hpp"
 
 namespace kith::detail {
 namespace {

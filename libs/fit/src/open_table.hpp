@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kith/core/diagnostic.hpp"
-#include "kith/table/csv_reader.hpp"
+#include "kith/files/csv_reader.hpp"
 
 namespace kith::detail {
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kith/random/distributions.hpp"
-#include "kith/stats/distributions.hpp"
+#include "kith/analysis/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "nelder_mead.hpp"
 
 namespace kith {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "kith/core/assert.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "nearest_point.hpp"
 
 namespace kith::detail {

@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/cone.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith::testing {
 

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/vector_clones.hpp"
 #include "kith/learners/bayesian_learner.hpp"
 #include "kith/learners/learner_model.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "like_bayesian.hpp"
 

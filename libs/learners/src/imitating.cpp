@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kith/bec/transfer.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {

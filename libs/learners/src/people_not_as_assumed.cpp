@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/judgement.hpp"
-#include "kith/random/distributions.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/judgement.hpp"
 #include "kith/learners/discussion.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

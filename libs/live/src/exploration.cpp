@@ -7,9 +7,9 @@
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/variation.hpp"
+#include "kith/explain/board_json.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/live/world_json.hpp"
-#include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
 

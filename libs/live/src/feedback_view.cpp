@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "exploration.hpp"
+#include "kith/explain/board_json.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/mdp/behaviour.hpp"
-#include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <tuple>
 
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/live/world_json.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/study/session_forecasts.hpp"
 #include "live_texts.hpp"
 #include "room_body.hpp"

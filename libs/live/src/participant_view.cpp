@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "exploration.hpp"
+#include "kith/explain/board_json.hpp"
+#include "kith/explain/curriculum_json.hpp"
 #include "kith/explain/examination.hpp"
 #include "kith/explain/runs.hpp"
-#include "kith/present/board_json.hpp"
-#include "kith/present/curriculum_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"

@@ -5,7 +5,7 @@
 
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/examination.hpp"
-#include "kith/present/audit_people.hpp"
+#include "kith/study/audit_people.hpp"
 
 namespace kith {
 namespace {

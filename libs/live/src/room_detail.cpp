@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "kith/domains/file_units.hpp"
+#include "kith/explain/board_json.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/misconception.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/geometry/outline.hpp"
-#include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "kith/explain/examination.hpp"
-#include "kith/present/audit_people.hpp"
+#include "kith/study/audit_people.hpp"
 #include "kith/study/team_streams.hpp"
 
 namespace kith {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "kith/present/move_table.hpp"
+#include "kith/explain/move_table.hpp"
 
 namespace kith {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "live_play.hpp"
 
 namespace kith {

@@ -1,8 +1,8 @@
 // People change the world and see where the robot goes then.
 #include <gtest/gtest.h>
 
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/random/distributions.hpp"
 #include "live_play.hpp"
 
 namespace kith::testing {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/geometry/cover.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/teaching/exam.hpp"
 #include "live_play.hpp"
 

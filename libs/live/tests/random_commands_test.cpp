@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
-#include "kith/random/distributions.hpp"
 #include "live_play.hpp"
 
 namespace kith {

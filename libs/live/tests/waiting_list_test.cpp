@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
-#include "kith/random/distributions.hpp"
 #include "live_play.hpp"
 
 namespace kith::testing {

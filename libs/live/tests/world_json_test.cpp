@@ -4,8 +4,8 @@
 
 #include <set>
 
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
-#include "kith/random/distributions.hpp"
 #include "live_play.hpp"
 
 namespace kith {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
-#include "kith/random/distributions.hpp"
 #include "value_iteration.hpp"
 
 namespace kith {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/mdp/mdp.hpp"
-#include "kith/random/distributions.hpp"
 #include "small_mdps.hpp"
 
 // Small processes of every kind, and what they are worth: found by enumerating

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/mdp/mdp.hpp"
-#include "kith/random/distributions.hpp"
 
 // Small processes, made by hand or at random, and oracles that enumerate what
 // the library computes cleverly.

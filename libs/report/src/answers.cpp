@@ -10,9 +10,9 @@
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/decimals.hpp"
-#include "kith/stats/effect_size.hpp"
-#include "kith/stats/moments.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/analysis/effect_size.hpp"
+#include "kith/analysis/moments.hpp"
+#include "kith/files/column_names.hpp"
 
 namespace kith::detail {
 namespace {

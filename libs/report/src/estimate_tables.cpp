@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kith/stats/effect_size.hpp"
+#include "kith/analysis/effect_size.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {

@@ -5,10 +5,10 @@
 #include <functional>
 #include <set>
 
-#include "kith/random/distributions.hpp"
-#include "kith/stats/effect_size.hpp"
-#include "kith/stats/moments.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/analysis/effect_size.hpp"
+#include "kith/analysis/moments.hpp"
+#include "kith/core/distributions.hpp"
+#include "kith/files/column_names.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {

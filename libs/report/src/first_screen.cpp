@@ -7,8 +7,8 @@
 
 #include "answers.hpp"
 #include "kith/analysis/decimals.hpp"
+#include "kith/analysis/moments.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/stats/moments.hpp"
 #include "kith/teaching/strategy.hpp"
 #include "sentences.hpp"
 

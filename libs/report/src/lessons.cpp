@@ -5,10 +5,10 @@
 #include <map>
 
 #include "beliefs.hpp"
+#include "kith/explain/board_json.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/present/board_json.hpp"
+#include "kith/files/column_names.hpp"
 #include "kith/study/read_records.hpp"
-#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 namespace {

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
+#include "kith/analysis/moments.hpp"
 #include "kith/analysis/team_difference.hpp"
-#include "kith/stats/moments.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/files/column_names.hpp"
 #include "outcomes.hpp"
 #include "team_tables.hpp"
 

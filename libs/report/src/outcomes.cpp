@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "kith/table/column_names.hpp"
+#include "kith/files/column_names.hpp"
 #include "kith/teaching/strategy.hpp"
 #include "sentences.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "first_screen.hpp"
 #include "kith/analysis/team_difference.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/files/column_names.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {

@@ -4,8 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "kith/files/document.hpp"
 #include "kith/study/study_keys.hpp"
-#include "kith/toml/document.hpp"
 
 namespace kith::detail {
 namespace {

@@ -1,6 +1,6 @@
 #include "people_tables.hpp"
 
-#include "kith/stats/effect_size.hpp"
+#include "kith/analysis/effect_size.hpp"
 #include "team_tables.hpp"
 
 namespace kith::detail {

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "first_screen.hpp"
+#include "kith/analysis/effect_size.hpp"
 #include "kith/analysis/table_model.hpp"
-#include "kith/stats/effect_size.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/files/column_names.hpp"
 #include "outcomes.hpp"
 #include "sentences.hpp"
 #include "session_tables.hpp"

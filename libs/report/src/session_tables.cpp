@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/column_names.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/table/column_names.hpp"
 
 namespace kith::detail {
 namespace {

@@ -3,10 +3,10 @@
 #include <span>
 #include <utility>
 
-#include "kith/stats/effect_size.hpp"
-#include "kith/stats/moments.hpp"
-#include "kith/stats/survival.hpp"
-#include "kith/table/column_names.hpp"
+#include "kith/analysis/effect_size.hpp"
+#include "kith/analysis/moments.hpp"
+#include "kith/analysis/survival.hpp"
+#include "kith/files/column_names.hpp"
 
 namespace kith::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "kith/stats/moments.hpp"
-#include "kith/stats/tests.hpp"
+#include "kith/analysis/moments.hpp"
+#include "kith/analysis/tests.hpp"
 #include "runs.hpp"
 
 namespace kith {

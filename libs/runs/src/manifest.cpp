@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "kith/files/csv_writer.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/runs/arithmetic.hpp"
-#include "kith/table/csv_writer.hpp"
 
 namespace kith {
 namespace {

@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "kith/core/error.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/random/stream.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/study_run.hpp"
 #include "kith/runs/team_codec.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "item_delivery.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/study/tables.hpp"
 #include "run_support.hpp"
 

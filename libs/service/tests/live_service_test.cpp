@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "faulty_disk.hpp"
+#include "kith/files/csv_reader.hpp"
 #include "kith/store/session_audit.hpp"
 #include "kith/store/session_review.hpp"
-#include "kith/table/csv_reader.hpp"
 #include "service_group.hpp"
 
 namespace kith {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kith/core/error.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/live/live_study.hpp"
-#include "kith/present/json.hpp"
 #include "kith/store/event_file.hpp"
 #include "kith/store/session_export.hpp"
 #include "kith/store/session_review.hpp"

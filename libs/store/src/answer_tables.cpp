@@ -5,9 +5,9 @@
 
 #include "kith/domains/file_units.hpp"
 #include "kith/explain/examination.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/present/audit_people.hpp"
-#include "kith/present/json.hpp"
+#include "kith/study/audit_people.hpp"
 #include "room_export.hpp"
 
 namespace kith {

@@ -1,7 +1,7 @@
 #include "export_tables.hpp"
 
+#include "kith/files/column_names.hpp"
 #include "kith/study/record_columns.hpp"
-#include "kith/table/column_names.hpp"
 
 namespace kith {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "kith/files/table_of.hpp"
 #include "kith/store/session_export.hpp"
-#include "kith/table/table_of.hpp"
 
 // What the tables of an export are: the one place where their columns are defined, by what a row of them holds.
 namespace kith {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "export_tables.hpp"
+#include "kith/files/csv_writer.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/live/room_audit.hpp"
 #include "kith/store/session_export.hpp"
-#include "kith/table/csv_writer.hpp"
 #include "room_history.hpp"
 
 namespace kith {

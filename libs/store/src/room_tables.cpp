@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kith/explain/json.hpp"
 #include "kith/live/screening.hpp"
-#include "kith/present/json.hpp"
 
 namespace kith {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "kith/core/error.hpp"
 #include "kith/live/room_audit.hpp"
-#include "kith/present/audit_people.hpp"
 #include "kith/store/session_review.hpp"
 #include "kith/store/session_study.hpp"
+#include "kith/study/audit_people.hpp"
 
 namespace kith {
 namespace {

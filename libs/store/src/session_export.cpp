@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/files/published_run.hpp"
-#include "kith/present/json.hpp"
 #include "room_export.hpp"
 
 namespace kith {

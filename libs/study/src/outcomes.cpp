@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kith/table/column_names.hpp"
+#include "kith/files/column_names.hpp"
 
 namespace kith {
 namespace {

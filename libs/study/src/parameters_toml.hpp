@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kith/core/option_key.hpp"
-#include "kith/toml/reader.hpp"
+#include "kith/files/reader.hpp"
 
 namespace kith {
 

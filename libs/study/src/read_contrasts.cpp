@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "kith/files/column_names.hpp"
 #include "kith/study/outcomes.hpp"
-#include "kith/table/column_names.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {

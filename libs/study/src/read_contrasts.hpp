@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "kith/files/reader.hpp"
 #include "kith/study/study_spec.hpp"
-#include "kith/toml/reader.hpp"
 
 namespace kith {
 

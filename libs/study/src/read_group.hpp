@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kith/files/reader.hpp"
+#include "kith/files/value.hpp"
 #include "kith/study/group_options.hpp"
-#include "kith/toml/reader.hpp"
-#include "kith/toml/value.hpp"
 
 namespace kith {
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "kith/domains/domain.hpp"
+#include "kith/files/reader.hpp"
 #include "kith/study/study_spec.hpp"
-#include "kith/toml/reader.hpp"
 
 namespace kith {
 

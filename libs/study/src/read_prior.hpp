@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kith/domains/domain.hpp"
+#include "kith/files/reader.hpp"
 #include "kith/teaching/older_robot.hpp"
-#include "kith/toml/reader.hpp"
 
 namespace kith {
 

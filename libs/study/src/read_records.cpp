@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
+#include "kith/files/column_names.hpp"
+#include "kith/files/csv_reader.hpp"
 #include "kith/study/record_columns.hpp"
-#include "kith/table/column_names.hpp"
-#include "kith/table/csv_reader.hpp"
 #include "vectors.hpp"
 
 namespace kith {

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "kith/core/error.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/learners/presumed_kinds.hpp"
-#include "kith/random/stream.hpp"
 #include "parameters_toml.hpp"
 #include "read_contrasts.hpp"
 #include "read_group.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kith/domains/domain.hpp"
+#include "kith/files/column_names.hpp"
+#include "kith/files/reader.hpp"
 #include "kith/study/study_spec.hpp"
-#include "kith/table/column_names.hpp"
-#include "kith/toml/reader.hpp"
 
 namespace kith {
 

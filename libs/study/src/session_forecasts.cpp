@@ -1,6 +1,6 @@
 #include "kith/study/session_forecasts.hpp"
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/study/team_run.hpp"
 
 namespace kith {

@@ -7,8 +7,8 @@
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/toml/document.hpp"
-#include "kith/toml/file.hpp"
+#include "kith/files/document.hpp"
+#include "kith/files/file.hpp"
 #include "read_prior.hpp"
 #include "read_study_spec.hpp"
 

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <deque>
 
+#include "kith/files/csv_writer.hpp"
 #include "kith/study/record_columns.hpp"
-#include "kith/table/csv_writer.hpp"
 
 namespace kith {
 namespace {

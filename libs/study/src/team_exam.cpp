@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/study/team_streams.hpp"
 
 namespace kith {

@@ -1,6 +1,6 @@
 #include "kith/study/team_streams.hpp"
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/teaching/known_components.hpp"
 
 namespace kith {

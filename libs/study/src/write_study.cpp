@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "kith/files/document.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/teaching/learner_bank.hpp"
-#include "kith/toml/document.hpp"
 #include "parameters_toml.hpp"
 #include "read_group.hpp"
 #include "read_prior.hpp"

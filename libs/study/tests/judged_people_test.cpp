@@ -12,23 +12,12 @@
 #include "kith/teaching/forecast.hpp"
 #include "kith/teaching/random_test.hpp"
 #include "people_not_as_assumed.hpp"
-#include "study_texts.hpp"
+#include "study_file_support.hpp"
 
 namespace kith {
 namespace {
 
 using testing::item_delivery;
-
-// People who are taught one by one.
-Study study_of(const LearnerModel& model, const std::string& settings, std::size_t people) {
-  const auto text = "schema = \"kith.study/1\"\nid = \"judged\"\ndomain = \"item-delivery\"\nseed = 12\nreplicates = " +
-                    std::to_string(people / 2) +
-                    "\n[design]\nstrategies = [\"joint\"]\ncompositions = [\"N\", \"P\"]\n" + testing::kPaperLearners +
-                    settings;
-  auto study = parse_study(text, "judged.toml").study.value();
-  for (auto& type : study.variants.front().learner_types) type.model = &model;
-  return study;
-}
 
 // Whether somebody was declared done with a component without answering a random test of it right with a probability
 // of 0.8.
@@ -44,14 +33,14 @@ class DeclaredDone : public TeamObserver {
                    const std::vector<Learner::Response>& /*responses*/, const Feedback& /*feedback*/,
                    const Learners& /*learners*/) override {}
   void on_end(const Session& session, const Learners& learners) override {
-    constexpr double kEnough = 0.8;
+    constexpr double kUnderstood = 0.8;
     const auto* belief = learners.front()->belief();
     for (std::size_t k = 0; k < session.components().size(); ++k) {
       if (session.components()[k] != ComponentStatus::kLearned) continue;
       ++learned;
       const RandomTest test{item_delivery(), cache_.exam(), k};
       const auto right = [&] { return test.all_right(std::vector<std::vector<double>>{test.right(*belief)}); };
-      wrongly = wrongly || belief == nullptr || right() < kEnough;
+      wrongly = wrongly || belief == nullptr || right() < kUnderstood;
     }
   }
 
@@ -65,7 +54,8 @@ struct Declared {
 
 Declared declared_of(const LearnerModel& model, std::size_t people, const std::string& more = "") {
   TeachingCache cache{item_delivery()};
-  const auto study = study_of(model, "[stop]\nmax_periods = 20\nmastery = \"posterior\"\n" + more, people);
+  const auto study = testing::study_of_kind(model, R"(["N", "P"])", people / 2, 12,
+                                            "[stop]\nmax_periods = 20\nmastery = \"posterior\"\n" + more);
   Declared declared;
   for (std::size_t team = 1; team <= num_teams(study); ++team) {
     DeclaredDone observer{cache};

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "kith/study/study_file.hpp"
+#include "study_texts.hpp"
 
 namespace kith::testing {
 
@@ -38,6 +40,19 @@ correct_gain = { value = 0.05 }
 
 [[nodiscard]] inline StudyReading parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_study(text, "study.toml", {overrides, {}});
+}
+
+/// Teams of the paper's people, all of them learning by one model.
+[[nodiscard]] inline Study study_of_kind(const LearnerModel& model, const std::string& compositions,
+                                         std::size_t replicates, std::uint64_t seed, const std::string& settings) {
+  auto study = parse_study("schema = \"kith.study/1\"\nid = \"judged\"\ndomain = \"item-delivery\"\nseed = " +
+                               std::to_string(seed) + "\nreplicates = " + std::to_string(replicates) +
+                               "\n[design]\nstrategies = [\"joint\"]\ncompositions = " + compositions + "\n" +
+                               kPaperLearners + settings,
+                           "judged.toml")
+                   .study.value();
+  for (auto& type : study.variants.front().learner_types) type.model = &model;
+  return study;
 }
 
 }  // namespace kith::testing

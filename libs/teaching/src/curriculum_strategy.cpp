@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/judgement.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "kith/bec/near_miss.hpp"
 #include "kith/core/assert.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/teaching/cache.hpp"
 
 namespace kith {

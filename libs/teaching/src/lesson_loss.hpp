@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kith/belief/likelihood.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/teaching_options.hpp"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "kith/core/stream.hpp"
 #include "kith/core/vector_clones.hpp"
-#include "kith/random/stream.hpp"
 
 namespace kith {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/visited_starts.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "kith/random/distributions.hpp"
+#include "kith/core/distributions.hpp"
 
 namespace kith {
 namespace {

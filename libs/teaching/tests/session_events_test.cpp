@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "item_delivery.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/teaching/session.hpp"
 #include "robots_answers.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "item_delivery.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
-#include "kith/random/distributions.hpp"
 #include "robots_answers.hpp"
 
 namespace kith {

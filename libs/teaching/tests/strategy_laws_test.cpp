@@ -7,9 +7,9 @@
 #include <string>
 
 #include "item_delivery.hpp"
+#include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/random/distributions.hpp"
 #include "kith/teaching/session.hpp"
 #include "robots_answers.hpp"
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "../fuzzing.hpp"
-#include "kith/table/csv_reader.hpp"
-#include "kith/table/csv_writer.hpp"
+#include "kith/files/csv_reader.hpp"
+#include "kith/files/csv_writer.hpp"
 
 using namespace kith;
 

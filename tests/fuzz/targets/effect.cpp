@@ -1,7 +1,7 @@
 // Effects to plan for and conditions on rows, as given on the command line, one a line. What is
 // read is written in a form that reads as the same.
 
-#include "kith/study_design/effect.hpp"
+#include "kith/analysis/effect.hpp"
 
 #include "../fuzzing.hpp"
 #include "../study_files.hpp"

@@ -1,6 +1,6 @@
 // The findings of targets files, against a small study.
 
-#include "kith/study_design/findings.hpp"
+#include "kith/analysis/findings.hpp"
 #include "../fuzzing.hpp"
 #include "../study_files.hpp"
 

@@ -2,7 +2,7 @@
 // which is written as the same text.
 
 #include "../fuzzing.hpp"
-#include "kith/toml/document.hpp"
+#include "kith/files/document.hpp"
 
 using namespace kith;
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith::testing {
 

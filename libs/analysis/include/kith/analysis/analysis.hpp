@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "kith/analysis/anova.hpp"
 #include "kith/analysis/contrasts.hpp"
 #include "kith/analysis/finding.hpp"
-#include "kith/stats/anova.hpp"
-#include "kith/stats/multiple.hpp"
+#include "kith/analysis/multiple.hpp"
 
 namespace kith {
 

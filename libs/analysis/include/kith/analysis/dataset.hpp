@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kith/stats/factor.hpp"
-#include "kith/table/codebook.hpp"
+#include "kith/analysis/factor.hpp"
+#include "kith/files/codebook.hpp"
 
 namespace kith {
 

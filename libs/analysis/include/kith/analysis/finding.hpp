@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/table/csv_reader.hpp"
+#include "kith/files/csv_reader.hpp"
 
 namespace kith {
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "kith/stats/tests.hpp"
+#include "kith/analysis/tests.hpp"
 
 namespace kith {
 

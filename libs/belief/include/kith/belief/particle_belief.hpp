@@ -8,9 +8,9 @@
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/likelihood_product.hpp"
 #include "kith/belief/prior_cover.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/geometry/eigen.hpp"
-#include "kith/random/stream.hpp"
 
 namespace kith {
 

@@ -9,7 +9,7 @@
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/domains/domain.hpp"
-#include "kith/maps/domain_files.hpp"
+#include "kith/domains/domain_files.hpp"
 
 namespace kith {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "kith/maps/cell.hpp"
+#include "kith/domains/cell.hpp"
 #include "kith/mdp/mdp.hpp"
 
 namespace kith {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/eigen.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "kith/core/distributions.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/geometry/eigen.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/stream.hpp"
 #include "kith/learners/learner.hpp"
-#include "kith/random/stream.hpp"
 
 namespace kith {
 

@@ -8,8 +8,8 @@
 
 #include "kith/bec/behaviours.hpp"
 #include "kith/core/parameter.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/learners/learner.hpp"
-#include "kith/random/stream.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {

@@ -12,8 +12,8 @@
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/prior_cover.hpp"
 #include "kith/core/parameter.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/learners/learner.hpp"
-#include "kith/random/stream.hpp"
 
 namespace kith {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/explain/update.hpp"
-#include "kith/present/json.hpp"
 #include "kith/study/study.hpp"
 #include "kith/teaching/forecast.hpp"
 

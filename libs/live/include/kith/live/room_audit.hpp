@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "kith/explain/audit_report.hpp"
 #include "kith/live/live_study.hpp"
 #include "kith/live/room.hpp"
 #include "kith/live/taught_people.hpp"
-#include "kith/present/audit_report.hpp"
 
 namespace kith {
 

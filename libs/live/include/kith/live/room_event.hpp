@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 
 namespace kith {
 

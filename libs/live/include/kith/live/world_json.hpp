@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "kith/explain/move_table.hpp"
 #include "kith/live/live_study.hpp"
 #include "kith/mdp/planner.hpp"
-#include "kith/present/move_table.hpp"
 #include "kith/teaching/lesson.hpp"
 
 namespace kith {

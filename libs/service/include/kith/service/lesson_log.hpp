@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 #include "kith/store/session_study.hpp"
 
 namespace kith {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "kith/present/json.hpp"
+#include "kith/explain/json.hpp"
 
 // Members of objects that may hold anything.
 namespace kith {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "kith/explain/audit_report.hpp"
 #include "kith/live/room_audit.hpp"
-#include "kith/present/audit_report.hpp"
 #include "kith/store/event_file.hpp"
 
 namespace kith {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "kith/files/codebook.hpp"
 #include "kith/live/live_study.hpp"
 #include "kith/store/event_file.hpp"
-#include "kith/table/codebook.hpp"
 #include "kith/teaching/cache.hpp"
 
 namespace kith {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "kith/domains/file_units.hpp"
+#include "kith/files/column_names.hpp"
+#include "kith/files/table_of.hpp"
 #include "kith/study/records.hpp"
 #include "kith/study/study.hpp"
-#include "kith/table/column_names.hpp"
-#include "kith/table/table_of.hpp"
 
 /// What is recorded of a team, one line per member of a record: from it come the column of the table, its entry in the
 /// codebook and its place in the journal. `declare(fields, Declared<Record>{})` tells `fields` about the record:

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "kith/files/codebook.hpp"
 #include "kith/study/records.hpp"
 #include "kith/study/study.hpp"
-#include "kith/table/codebook.hpp"
 
 namespace kith {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "kith/core/stream.hpp"
 #include "kith/learners/learner.hpp"
-#include "kith/random/stream.hpp"
 #include "kith/study/records.hpp"
 #include "kith/study/study_spec.hpp"
 #include "kith/teaching/cache.hpp"

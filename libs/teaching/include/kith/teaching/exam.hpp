@@ -10,7 +10,7 @@
 #include "kith/bec/grade_table.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "kith/belief/prior_cover.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 
 namespace kith {
 

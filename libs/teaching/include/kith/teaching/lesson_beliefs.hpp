@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/teaching/answer_fit.hpp"
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"

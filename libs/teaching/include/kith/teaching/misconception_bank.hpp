@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/credible_level.hpp"
 #include "kith/teaching/lesson_beliefs.hpp"

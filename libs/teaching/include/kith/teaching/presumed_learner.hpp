@@ -9,7 +9,7 @@
 
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/particle_belief.hpp"
-#include "kith/random/stream.hpp"
+#include "kith/core/stream.hpp"
 #include "kith/teaching/answer_fit.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 
