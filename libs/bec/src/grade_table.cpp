@@ -62,7 +62,6 @@ void GradeTable::grade_starts(const Atlas& atlas) {
 void GradeTable::grade_tests(const Atlas& atlas) {
   const auto& tables = atlas.tables();
   tests_.resize(num_components_);
-  tests_right_.assign(tables.cells().size() * num_components_, 0.0);
   for (std::size_t k = 0; k < num_components_; ++k) {
     const auto& component = atlas.knowledge_components()[k];
     std::vector<double> weights(num_hulls_, 0.0);
@@ -78,11 +77,6 @@ void GradeTable::grade_tests(const Atlas& atlas) {
     }
     for (std::size_t h = 0; h < num_hulls_; ++h) {
       if (weights[h] > 0.0) tests_[k].push_back({HullIndex{h}, weights[h] / num_facets});
-    }
-    for (std::size_t cell = 0; cell < tables.cells().size(); ++cell) {
-      for (const auto& test : tests_[k]) {
-        if (is_right(PolicyCellIndex{cell}, test.hull)) tests_right_[cell * num_components_ + k] += test.weight;
-      }
     }
   }
 }

@@ -204,7 +204,7 @@ void Auditor::count(std::span<const ObservedPeriod> periods, std::vector<Compone
     for (auto& audit : audits) {
       const auto& own = constraints_[audit.component];
       const auto is_own = [&](const HalfSpace& c) { return std::find(own.begin(), own.end(), c) != own.end(); };
-      if (period.is_exam) {
+      if (period.is_exam()) {
         const auto& examined = period.tests.front().covered;
         if (std::none_of(examined.begin(), examined.end(), is_own)) continue;
         ++audit.examined;

@@ -48,7 +48,7 @@ void Examination::observe(const ObservedPeriod& period) {
   bank_.observe(cache_->atlas(), period);
   for (const auto& shown : period.demonstrations) chooser_.leave_out(shown.demo);
   for (const auto& test : period.tests) chooser_.leave_out(test.demo);
-  num_boards_ += period.is_exam ? 1u : 0u;
+  num_boards_ += period.is_exam() ? 1u : 0u;
 }
 
 std::optional<StartIndex> Examination::next() {

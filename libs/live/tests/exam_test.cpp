@@ -63,8 +63,8 @@ TEST(LiveExam, CountsForTheAudit) {
   }
   const auto people = taught.all(room);
   ASSERT_FALSE(people.empty());
-  EXPECT_TRUE(people.front().periods.back().is_exam);
-  EXPECT_FALSE(people.back().periods.back().is_exam);
+  EXPECT_TRUE(people.front().periods.back().is_exam());
+  EXPECT_FALSE(people.back().periods.back().is_exam());
 }
 
 TEST(LiveExam, IsLeftOutUnlessTheStudyAsksForIt) {

@@ -206,7 +206,7 @@ std::vector<ExportedAnswer> RoomExport::given_answers() const {
   };
   for (const auto& person : history.people) {
     for (const auto& period : person.periods) {
-      if (period.is_exam) continue;
+      if (period.is_exam()) continue;
       for (std::size_t test = 0; test < period.verdicts.size(); ++test) {
         if (is_there(person.seat, period.period, test)) continue;
         rows.push_back({.period = period.period,

@@ -9,9 +9,6 @@
 namespace kith {
 namespace {
 
-constexpr double kChanceByTwo = 0.25;  // as AnswerFit has it where behaviours are not tabulated
-constexpr std::array kBestForNobody{0.01, 0.5};
-
 double entropy_term(double p) { return p > 0.0 ? -p * std::log(p) : 0.0; }
 
 // -sum p log p of parts that sum to `all`, times all once they are divided by it.
@@ -108,7 +105,8 @@ std::vector<double> ExamChooser::answers_of(const PossiblePerson& person) const 
   } else {
     for (const auto& question : questions_) {
       const double right = person.belief->belief().mass_in(question.examined);
-      answers[question.first] = AnswerFit::slip() * kChanceByTwo + (1.0 - AnswerFit::slip()) * std::min(right, 1.0);
+      answers[question.first] =
+          AnswerFit::slip() * AnswerFit::chance() + (1.0 - AnswerFit::slip()) * std::min(right, 1.0);
       answers[question.first + 1] = 1.0 - answers[question.first];
     }
   }
@@ -116,14 +114,14 @@ std::vector<double> ExamChooser::answers_of(const PossiblePerson& person) const 
 }
 
 void ExamChooser::add_guesses(AnswerFit::Guess guess, std::vector<double>& answers) const {
-  const double nobodys = kBestForNobody[guess == AnswerFit::Guess::kSensible ? 0 : 1];
+  const double nobodys = AnswerFit::best_for_nobody(guess);
   for (const auto& question : questions_) {
     const bool by_two = !atlas_->find_tables();
     const auto last = question.first + question.answers - 1;
     for (auto a = question.first; a < last; ++a) {
-      answers[a] = by_two ? kChanceByTwo : (1.0 - nobodys) / static_cast<double>(question.answers - 1);
+      answers[a] = by_two ? AnswerFit::chance() : (1.0 - nobodys) / static_cast<double>(question.answers - 1);
     }
-    answers[last] = by_two ? 1.0 - kChanceByTwo : nobodys;
+    answers[last] = by_two ? 1.0 - AnswerFit::chance() : nobodys;
   }
 }
 

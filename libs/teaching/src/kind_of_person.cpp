@@ -14,7 +14,7 @@ std::vector<KindProbability> kinds_after(TeachingCache& cache, const TeachingOpt
   LearnerBank bank{cache.start_of(options), options.filter, options.likelihood, options.kinds, random, components};
   const ObservedPeriod* before = nullptr;
   for (const auto& period : periods) {
-    if (period.is_exam) {
+    if (period.is_exam()) {
       bank.see_answers(AnswerFit{atlas, period.tests, period.answers, period.verdicts});
       continue;
     }

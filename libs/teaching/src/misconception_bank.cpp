@@ -113,13 +113,13 @@ void MisconceptionBank::let_some_stop() {
 }
 
 void MisconceptionBank::observe(const Atlas& atlas, const ObservedPeriod& period) {
-  if (!period.is_exam) beliefs_->take(num_periods_, period);
-  if (!period.is_exam && num_periods_ > 0) let_some_stop();
+  if (!period.is_exam()) beliefs_->take(num_periods_, period);
+  if (!period.is_exam() && num_periods_ > 0) let_some_stop();
   const AnswerFit fit{atlas, period.tests, period.answers, period.verdicts, AnswerFit::Missing::kIsWrong};
   num_tests_ += fit.num_tests();
   num_right_ += fit.num_right();
-  if (fit.num_tests() > 0) weigh(atlas, fit, period.is_exam);
-  if (period.is_exam) {
+  if (fit.num_tests() > 0) weigh(atlas, fit, period.is_exam());
+  if (period.is_exam()) {
     ++num_boards_;
     return;
   }

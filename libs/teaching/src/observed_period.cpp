@@ -28,7 +28,6 @@ ObservedPeriod exam_board(const Atlas& atlas, StartIndex start, const Answer& an
   const auto covered = atlas.constraints().half_spaces(atlas.tested_constraints(start).without(atlas.prior()));
   ObservedPeriod board;
   board.period = period;
-  board.is_exam = true;
   board.tests = {{.demo = start, .covered = covered}};
   board.answers = {answer};
   board.verdicts = {verdict_on(atlas, board.tests.front(), answer)};

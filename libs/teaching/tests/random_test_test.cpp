@@ -29,7 +29,10 @@ TEST_F(RandomTestTest, OfOnePersonIsTheShareOfTestsAnsweredCorrectly) {
   for (std::size_t k = 0; k < table.num_components(); ++k) {
     double expected = 0.0;
     for (std::size_t i = 0; i < belief.size(); ++i) {
-      expected += belief.weights()[i] * table.tests_right(item_delivery().tables().cells().locate(belief.point(i)), k);
+      const auto cell = item_delivery().tables().cells().locate(belief.point(i));
+      for (const auto& one : table.tests(k)) {
+        if (table.is_right(cell, one.hull)) expected += belief.weights()[i] * one.weight;
+      }
     }
     const RandomTest test{item_delivery(), cache_.exam(), k};
     EXPECT_NEAR(test.all_right(People{test.right(belief)}), expected, 1e-12);

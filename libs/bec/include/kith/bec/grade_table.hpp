@@ -32,11 +32,6 @@ class GradeTable {
   [[nodiscard]] const Grade& component(PolicyCellIndex cell, std::size_t component) const {
     return row(cell)[component];
   }
-  /// f: the share of a component's tests that are answered right, in [0, 1]: the mean over the facets of its region of
-  /// the share of the starts that test the facet (Atlas::tests_for).
-  [[nodiscard]] double tests_right(PolicyCellIndex cell, std::size_t component) const {
-    return tests_right_[cell.value() * num_components_ + component];
-  }
   /// A start that tests the component, as learners see it, and its share of the component's tests.
   struct ComponentTest {
     HullIndex hull;
@@ -61,7 +56,6 @@ class GradeTable {
   std::vector<char> right_;                        // shape [num_cells, num_hulls]
   std::vector<Grade> grades_;                      // shape [num_cells, num_components + 1], the last of all starts
   std::vector<std::vector<ComponentTest>> tests_;  // per component
-  std::vector<double> tests_right_;                // shape [num_cells, num_components]
 };
 
 }  // namespace kith

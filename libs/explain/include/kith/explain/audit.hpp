@@ -141,6 +141,9 @@ class Auditor {
   [[nodiscard]] std::vector<PersonAudit> audit_group(std::span<const std::vector<ObservedPeriod>> people,
                                                      const RandomStream& random);
 
+  /// What an audit says of a person by the bank that observed the periods, without misconceptions and what to ask next.
+  [[nodiscard]] PersonAudit judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods) const;
+
   /// The constraints of a component that people may violate, sorted.
   [[nodiscard]] const std::vector<HalfSpace>& constraints_of(std::size_t component) const {
     return constraints_[component];
@@ -148,8 +151,6 @@ class Auditor {
 
  private:
   void count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const;
-  friend class Examination;
-  [[nodiscard]] PersonAudit judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods) const;
   [[nodiscard]] Doubt doubt(const MisconceptionBank& bank, const ComponentAudit& audit) const;
   void name_misconception(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods,
                           ComponentAudit& audit);

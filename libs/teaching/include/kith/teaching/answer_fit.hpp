@@ -43,6 +43,14 @@ class AnswerFit {
 
   /// e: the probability that an answer is not what the person believes.
   [[nodiscard]] static constexpr double slip() noexcept { return 0.02; }
+  /// The probability that a guess is right where behaviours are not tabulated.
+  [[nodiscard]] static constexpr double chance() noexcept { return 0.25; }
+  /// How people guess.
+  enum class Guess { kSensible, kAny };
+  /// The probability that a guess is a path that is best for nobody.
+  [[nodiscard]] static constexpr double best_for_nobody(Guess guess) noexcept {
+    return guess == Guess::kSensible ? 0.01 : 0.5;
+  }
 
   /// One answer and one verdict per test. The arguments are not kept.
   AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
@@ -72,8 +80,6 @@ class AnswerFit {
   [[nodiscard]] bool is_by_cells() const noexcept;
   /// The same by the mass of every policy cell. @pre is_by_cells().
   [[nodiscard]] Rating of(std::span<const double> cell_masses) const;
-  /// How people guess.
-  enum class Guess { kSensible, kAny };
   /// Of somebody who guesses.
   [[nodiscard]] const Rating& of(Guess guess) const noexcept { return guesses_[guess == Guess::kSensible ? 0 : 1]; }
 

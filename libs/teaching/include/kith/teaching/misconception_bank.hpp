@@ -53,7 +53,7 @@ struct PossiblePerson {
 /// with P as in AnswerFit. The second step says that the feedback of a period may mend a misconception. Before any
 /// period but the first, a share NonLearners::kStop of those in state 0 stop learning: they keep the belief B_0h that
 /// they have then, which makes a state of its own for every period. Where there are many hypotheses, one stands for
-/// four of people with a misconception. Boards of an exam (ObservedPeriod::is_exam) weigh, and change nobody.
+/// four of people with a misconception. Boards of an exam (ObservedPeriod::is_exam()) weigh, and change nobody.
 class MisconceptionBank {
  public:
   struct Options : LessonBeliefs::Options {

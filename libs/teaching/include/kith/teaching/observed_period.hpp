@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "kith/teaching/lesson.hpp"
@@ -10,8 +11,10 @@ namespace kith {
 
 /// What one person saw, answered and heard in an interaction period: all that can be observed of a person from outside.
 struct ObservedPeriod {
-  std::size_t period = 0;                     ///< 1, 2, ...
-  std::size_t component = 0;                  ///< Index into Atlas::knowledge_components().
+  std::size_t period = 0;  ///< 1, 2, ...
+  /// Index into Atlas::knowledge_components(). Nothing: a board of an exam, after all lessons, one test, which teaches
+  /// nothing.
+  std::optional<std::size_t> component;
   std::vector<Demonstration> demonstrations;  ///< Only `demo` and `half_spaces` are read.
   std::vector<Test> tests;
   std::vector<Answer> answers;      ///< One per test; none where the person gave none.
@@ -19,8 +22,7 @@ struct ObservedPeriod {
   bool all_correct = false;         ///< In the end, where answers were discussed.
   bool discussed = false;           ///< Whether the group talked about its answers.
   std::vector<HalfSpace> feedback;  ///< What the feedback taught; empty if the person heard none.
-  /// A board of an exam, after all lessons: one test, which teaches nothing. `component` means nothing.
-  bool is_exam = false;
+  [[nodiscard]] bool is_exam() const noexcept { return !component; }
   friend bool operator==(const ObservedPeriod&, const ObservedPeriod&) = default;
 };
 
