@@ -1,6 +1,7 @@
 #include "kith/bec/policy_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -163,6 +164,28 @@ PolicyCellIndex PolicyCells::locate(const Eigen::Vector3d& weights) const noexce
   std::uint32_t at = 0;
   while (nodes_[at].child[0] != kLeaf) at = nodes_[at].child[nodes_[at].normal.dot(weights) >= 0.0 ? 1 : 0];
   return PolicyCellIndex{nodes_[at].cell};
+}
+
+std::vector<std::uint32_t> PolicyCells::locate(std::span<const double> x, std::span<const double> y,
+                                               std::span<const double> z) const {
+  constexpr std::size_t kTogether = 8;  // so that a processor need not wait for one node after the other
+  std::vector<std::uint32_t> cells(x.size());
+  for (std::size_t begin = 0; begin < x.size(); begin += kTogether) {
+    const auto n = std::min(kTogether, x.size() - begin);
+    std::array<std::uint32_t, kTogether> at{};
+    for (bool goes_on = true; goes_on;) {
+      goes_on = false;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Node& node = nodes_[at[i]];
+        if (node.child[0] == kLeaf) continue;
+        const Eigen::Vector3d weights{x[begin + i], y[begin + i], z[begin + i]};
+        at[i] = node.child[node.normal.dot(weights) >= 0.0 ? 1 : 0];
+        goes_on = true;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) cells[begin + i] = nodes_[at[i]].cell;
+  }
+  return cells;
 }
 
 }  // namespace kith

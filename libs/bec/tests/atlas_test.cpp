@@ -150,10 +150,14 @@ TEST(Atlas, ClassesPartitionTheDemonstrations) {
 TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
   const auto& atlas = item_delivery();
   RandomStream random{20240617};
+  std::array<std::vector<double>, 3> points;
+  std::vector<std::uint32_t> cells;
   for (int i = 0; i < 100; ++i) {
     auto w = random_weights(random);
     if (i % 2 == 0) w.z() = -std::abs(w.z());  // half of them where optima are finite
     const auto cell = atlas.tables().cells().locate(w);
+    for (std::size_t k = 0; k < 3; ++k) points[k].push_back(w[static_cast<Eigen::Index>(k)]);
+    cells.push_back(static_cast<std::uint32_t>(cell.value()));
     for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
       const auto answer = atlas.tables().answer(demo, cell);
       ASSERT_EQ(answer.has_value(), atlas.tables().finite_region(demo).contains(w));
@@ -164,6 +168,7 @@ TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
       ASSERT_NEAR(dot(*answer, x), best, 1e-12);
     }
   }
+  EXPECT_EQ(atlas.tables().cells().locate(points[0], points[1], points[2]), cells);
 }
 
 // The hull maximum is the value that planning finds, wherever the optimum is

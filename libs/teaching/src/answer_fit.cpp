@@ -26,11 +26,7 @@ bool is_beyond_prior(const Atlas& atlas, std::span<const HalfSpace> half_spaces)
 std::span<const std::uint32_t> PointCells::of(const Atlas& atlas, const ParticleBelief& belief) {
   if (cells_.empty() || num_resamplings_ != belief.num_resamplings()) {
     num_resamplings_ = belief.num_resamplings();
-    cells_.resize(belief.size());
-    const auto x = belief.x(), y = belief.y(), z = belief.z();
-    for (std::size_t i = 0; i < belief.size(); ++i) {
-      cells_[i] = static_cast<std::uint32_t>(atlas.tables().cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value());
-    }
+    cells_ = atlas.tables().cells().locate(belief.x(), belief.y(), belief.z());
   }
   return cells_;
 }
@@ -38,7 +34,6 @@ std::span<const std::uint32_t> PointCells::of(const Atlas& atlas, const Particle
 AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
                      std::span<const Verdict> verdicts, Missing missing)
     : atlas_{&atlas}, tables_{atlas.find_tables()} {
-  constexpr double kChance = 0.25;  // where behaviours are not tabulated
   if (tables_) {
     factor_of_cell_.assign(tables_->cells().size(), 1.0);
     num_right_of_cell_.assign(tables_->cells().size(), 0);
@@ -47,7 +42,7 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
   for (std::size_t t = 0; t < tests.size() && t < verdicts.size(); ++t) {
     const auto answer = t < answers.size() ? answers[t] : std::nullopt;
     if (!answer && missing == Missing::kSaysNothing) continue;
-    OneTest test{.chance = kChance, .right_by_chance = kChance};
+    OneTest test{.chance = chance(), .right_by_chance = chance()};
     auto answered_by = verdicts[t].half_spaces;
     const bool is_impossible = !answer || is_beyond_prior(atlas, answered_by);
     if (tables_) {
@@ -61,14 +56,14 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
     }
     if (!test.by_cell && !is_impossible) test.answered_by = numbers_of(answered_by);
     num_right_ += verdicts[t].correct ? 1u : 0u;
-    constexpr std::array kNobodys{0.01, 0.5};  // probability of a path that is best for nobody
     for (std::size_t g = 0; g < guesses_.size(); ++g) {
-      double chance = kChance, right = kChance;
+      double probability = chance(), right = chance();
       if (test.num_paths > 0.0) {
-        chance = test.by_nobody ? kNobodys[g] : (1.0 - kNobodys[g]) / test.num_paths;
-        right = test.right_by_chance * (1.0 - kNobodys[g]) * (test.num_paths + 1.0) / test.num_paths;
+        const double nobodys = best_for_nobody(g == 0 ? Guess::kSensible : Guess::kAny);
+        probability = test.by_nobody ? nobodys : (1.0 - nobodys) / test.num_paths;
+        right = test.right_by_chance * (1.0 - nobodys) * (test.num_paths + 1.0) / test.num_paths;
       }
-      guesses_[g].likelihood *= chance;
+      guesses_[g].likelihood *= probability;
       guesses_[g].right = convolved(guesses_[g].right, std::vector{1.0 - right, right});
     }
     tests_.push_back(std::move(test));

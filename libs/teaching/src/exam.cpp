@@ -117,10 +117,9 @@ ExamGrades Exam::grade(const ParticleBelief& belief, Behaviours& behaviours) con
   if (!table_) return grade_sample(belief, behaviours);
   const auto& cells = behaviours.atlas().tables().cells();
   std::vector<double> mass(cells.size(), 0.0);
-  const auto x = belief.x(), y = belief.y(), z = belief.z(), weights = belief.weights();
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    mass[cells.locate(Eigen::Vector3d{x[i], y[i], z[i]}).value()] += weights[i];
-  }
+  const auto weights = belief.weights();
+  const auto numbers = cells.locate(belief.x(), belief.y(), belief.z());
+  for (std::size_t i = 0; i < weights.size(); ++i) mass[numbers[i]] += weights[i];
   ExamGrades grades;
   grades.components.resize(table_->num_components());
   const auto add = [](Grade& sum, const Grade& grade, double weight) {

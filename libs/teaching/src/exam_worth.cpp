@@ -116,6 +116,22 @@ std::size_t ExamWorth::nearest_person(const Direction& weights) const {
   return nearest;
 }
 
+std::vector<Grade> ExamWorth::of(Behaviours& behaviours, std::span<const std::vector<double>> axes) const {
+  std::vector<Grade> grades;
+  if (table_) {
+    for (const auto cell : behaviours.atlas().tables().cells().locate(axes[0], axes[1], axes[2])) {
+      grades.push_back(table_->component(PolicyCellIndex{cell}, component_));
+    }
+    return grades;
+  }
+  Direction weights(static_cast<Eigen::Index>(axes.size()));
+  for (std::size_t i = 0; i < axes.front().size(); ++i) {
+    for (std::size_t k = 0; k < axes.size(); ++k) weights[static_cast<Eigen::Index>(k)] = axes[k][i];
+    grades.push_back(of(behaviours, weights));
+  }
+  return grades;
+}
+
 Grade ExamWorth::of(Behaviours& behaviours, const Direction& weights) const {
   if (table_) return table_->component(behaviours.locate(weights), component_);
   const auto d = static_cast<std::size_t>(weights.size());

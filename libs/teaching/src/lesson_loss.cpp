@@ -53,11 +53,7 @@ LessonLoss::LessonLoss(TeachingCache& cache, std::size_t component,
   };
   const auto& worth = cache.worth_of(component);
   floor_ = std::max(kFloor * wrong(worth.before()), std::numeric_limits<double>::min());
-  Direction weights(static_cast<Eigen::Index>(dimension_));
-  for (std::size_t i = 0; i < mass_.size(); ++i) {
-    for (std::size_t k = 0; k < dimension_; ++k) weights[static_cast<Eigen::Index>(k)] = axes_[k][i];
-    wrong_.push_back(wrong(worth.of(cache.behaviours(), weights)));
-  }
+  for (const auto& grade : worth.of(cache.behaviours(), axes_)) wrong_.push_back(wrong(grade));
 }
 
 Imitation LessonLoss::imitation() const {

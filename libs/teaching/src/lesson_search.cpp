@@ -203,15 +203,16 @@ class LessonSearch {
       std::size_t candidate;
     };
     std::vector<Rated> fresh, known;
+    LessonLoss::Product product;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const auto& candidate = candidates_[i];
       const bool is_new =
           std::ranges::any_of(candidate.classes, [&](auto c) { return has_unvisited(atlas_, c, lesson.met); });
-      auto longer = lesson.product;
-      show(lesson, candidate.conveyed, longer);
+      product = lesson.product;
+      show(lesson, candidate.conveyed, product);
       // What imitators copy depends on the start, which else is chosen by its looks once it matters.
       const double imitating = imitation_ ? imitation_->with(start_of(candidate, lesson)) : 0.0;
-      (is_new ? fresh : known).push_back({loss_.of(longer, imitating), i});
+      (is_new ? fresh : known).push_back({loss_.of(product, imitating), i});
     }
     const auto falls = [&](const Rated& one) { return one.loss < nothing_ - kTie; };
     auto& rated = std::ranges::any_of(fresh, falls) || known.empty() ? fresh : known;
@@ -275,6 +276,7 @@ class LessonSearch {
     };
     longer.ratio = ratio(loss_.of(longer.product, imitating), 0);
     auto product = longer.product;
+    LessonLoss::Product after;
     ConstraintSet heard;
     while (longer.tests.size() < limits_.tests) {
       const Examined* best = nullptr;
@@ -283,7 +285,7 @@ class LessonSearch {
         for (const auto& one : all.at(again ? 1 : 0)) {
           const auto added = one.covered.without(heard);
           if (added.empty()) continue;
-          auto after = product;
+          after = product;
           loss_.repeat(after, added);
           const double loss = loss_.of(after, imitating);
           if (best != nullptr && !(loss < least - kTie)) continue;

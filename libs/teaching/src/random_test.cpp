@@ -34,10 +34,9 @@ std::vector<double> RandomTest::right(const ParticleBelief& belief) const {
   }
   const auto& cells = atlas_->tables().cells();
   std::vector<double> masses(cells.size(), 0.0);
-  const auto x = belief.x(), y = belief.y(), z = belief.z(), weights = belief.weights();
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    masses[cells.locate(Eigen::Vector3d{x[i], y[i], z[i]}).value()] += weights[i];
-  }
+  const auto weights = belief.weights();
+  const auto numbers = cells.locate(belief.x(), belief.y(), belief.z());
+  for (std::size_t i = 0; i < weights.size(); ++i) masses[numbers[i]] += weights[i];
   return right_in_cells(masses);
 }
 

@@ -39,6 +39,10 @@ class PolicyCells {
 
   [[nodiscard]] std::size_t size() const noexcept { return num_cells_; }
   [[nodiscard]] PolicyCellIndex locate(const Eigen::Vector3d& weights) const noexcept;
+  /// The numbers of the cells of many points; faster than one by one, as several walk down together.
+  /// @param x, y, z  of length n. @return shape [n].
+  [[nodiscard]] std::vector<std::uint32_t> locate(std::span<const double> x, std::span<const double> y,
+                                                  std::span<const double> z) const;
   [[nodiscard]] Choice choice(PolicyCellIndex cell, HullIndex hull) const {
     return choices_[cell.value() * num_hulls_ + hull.value()];
   }

@@ -26,6 +26,8 @@ class ExamWorth {
   [[nodiscard]] const Grade& before() const noexcept { return before_; }
   /// @param weights  shape [d], of length 1.
   [[nodiscard]] Grade of(Behaviours& behaviours, const Direction& weights) const;
+  /// The same of many. @param axes  shape [d][n]. @return shape [n].
+  [[nodiscard]] std::vector<Grade> of(Behaviours& behaviours, std::span<const std::vector<double>> axes) const;
 
  private:
   // The paths that people take from a start, each once.
