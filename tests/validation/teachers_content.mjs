@@ -31,6 +31,7 @@ const POSTERIOR = (probability) => ['stop.mastery="posterior"', `stop.probabilit
 const BY_EXAM = 'stop.mastery="exam"';
 const ENOUGH = { 'item-delivery': 'item-delivery', 'colored-tiles': 'colored-tiles', 'frozen lake': 'domains/gallery/frozen_lake.toml' };
 const CERTAIN = [0.5, 0.7, 0.9, 0.95];
+const REGRET = ['item-delivery', 'colored-tiles'];
 const MANY = 'stop.periods_per_component=12';
 // What is released, {label: settings}.
 const SESSIONS = { together: [], 'together, `release = "posterior"`': ['stop.release="posterior"'] };
@@ -64,6 +65,7 @@ export const COMMANDS = {
       CERTAIN.map((p) => [`enough ${p}, ${name}`, study(TEACHERS, FEW, only('plan'), `domain="${file}"`, NNP, BY_EXAM, `stop.probability=${p}`, 'stop.max_periods=60')]),
     ),
   ),
+  ...Object.fromEntries(REGRET.map((name) => [`regret, ${name}`, study(TEACHERS, FEW, only('plan'), `domain="${name}"`, NNP, 'stop.mastery="regret"', 'stop.probability=0.9', 'stop.max_periods=60', ...EVERY_PERIOD)])),
   'capacity 2, joint': study(TEACHERS, FEW, only('joint'), NNP, ...EVERY_PERIOD, ...TAKE_IN_TWO),
   'capacity 2': study(TEACHERS, FEW, only('plan'), NNP, MANY, ...EVERY_PERIOD, ...TAKE_IN_TWO),
   'capacity 2, planned for': study(TEACHERS, FEW, only('plan'), NNP, MANY, ...EVERY_PERIOD, ...TAKE_IN_TWO, 'strategy.plan.capacity=2'),
@@ -158,6 +160,14 @@ export function makeContent(runs) {
     const stopped = teamsOf(`enough ${p}, ${name}`, 'plan').filter((team) => team.status === 'complete');
     return { items: mean(stopped.map(MEASURES.items[0])), share: share(stopped.filter((team) => team.exam_worst_share_right >= 0.95).length, stopped.length) };
   };
+  // The same of teams whose members were all estimated to lose little enough.
+  const lost = (name) => {
+    const last = new Map();  // by team and member
+    for (const row of runs.table(`regret, ${name}`, 'exam').filter((one) => one.kc === '')) last.set(`${row.team} ${row.member}`, row);
+    const losesMuch = new Set([...last.values()].filter((row) => row.regret > 0.05).map((row) => row.team));
+    const stopped = teamsOf(`regret, ${name}`, 'plan').filter((team) => team.status === 'complete');
+    return { items: mean(stopped.map(MEASURES.items[0])), share: share(stopped.filter((team) => !losesMuch.has(team.team)).length, stopped.length) };
+  };
   tables.enough = () => ({
     columns: ['`probability`', ...Object.keys(ENOUGH).flatMap((name) => [name, 'items'])],
     rows: CERTAIN.map((p) => [
@@ -234,6 +244,12 @@ export function makeContent(runs) {
     'navigation-right': () => figure(of('stop by the exam, navigation', 'joint', 'share right'), 2),
     'navigation-knowledge': () => figure(of('stop by the exam, navigation', 'joint', 'p_BEC'), 2),
     'exam-stop-joint-periods': () => rangeOf('stop by the exam, navigation', 'joint', 'periods', 0),
+    ...Object.fromEntries(
+      REGRET.flatMap((name) => [
+        [`regret-stop-${name}`, () => figure(lost(name).share, 2)],
+        [`regret-stop-${name}-items`, () => fixed(lost(name).items, 1)],
+      ]),
+    ),
     'exam-stop-right': () => rangeOf('stop by the exam, navigation', undefined, 'share right', 2),
   };
   return { tables, figures, claims };

@@ -337,18 +337,16 @@ double LearnerBank::mass_in(std::span<const HalfSpace> half_spaces) const {
   return mass;
 }
 
-double LearnerBank::probability_of_at_least(double share,
-                                            const std::function<double(const ParticleBelief&)>& share_right) const {
-  constexpr double kUnlikely = 1e-4;  // counts as not sharing enough
+double LearnerBank::probability_that(const std::function<bool(const ParticleBelief&, double)>& holds) const {
+  constexpr double kUnlikely = 1e-4;  // counts as not so
   double probability = 0.0;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
     if (weights_[h] < kUnlikely) continue;
     const double own = 1.0 - people_[h].person->as_member(false).imitation.probability;
-    if (own * share_right(belief(h)) >= share) probability += learns_ * weights_[h];
+    if (holds(belief(h), own)) probability += learns_ * weights_[h];
   }
   for (const auto& state : others_.states()) {
-    if (state.weight < kUnlikely || !state.belief) continue;
-    if (share_right(*state.belief) >= share) probability += state.weight;
+    if (state.weight >= kUnlikely && state.belief && holds(*state.belief, 1.0)) probability += state.weight;
   }
   return probability;
 }

@@ -12,6 +12,7 @@ StopRuleKind all_right_kind();
 StopRuleKind fixed_kind();
 StopRuleKind posterior_kind();
 StopRuleKind exam_kind();
+StopRuleKind regret_kind();
 
 }  // namespace detail
 
@@ -28,7 +29,7 @@ bool StopRule::is_done(const ClosedTests&, std::size_t) const { return false; }
 
 std::span<const StopRuleKind> stop_rule_kinds() noexcept {
   static const std::array kinds{detail::all_right_kind(), detail::fixed_kind(), detail::posterior_kind(),
-                                detail::exam_kind()};
+                                detail::exam_kind(), detail::regret_kind()};
   return kinds;
 }
 

@@ -76,14 +76,15 @@ std::span<const OptionKey<TeachingOptions>> stop_keys() {
       option_key<T, &T::probability>(
           "probability",
           "how probable it has to be, with mastery 'posterior', that all members answer a random test correctly, with "
-          "'exam', that all predict share_right of the starts",
+          "'exam', that all predict share_right of the starts, with 'regret', that all lose at most max_regret",
           {0, 1, true, true}),
       option_key<T, &T::share_right>(
           "share_right",
           "with mastery 'exam', the share of a component's starts that everybody has to predict correctly",
           {0, 1, true, true}, [](const T& options) { return options.mastery.kind.name == "exam"; }),
-      option_key<T, &T::min_periods>(
-          "min_periods", "periods of a component at least, with mastery 'posterior' or 'exam'", {1, kManyPeriods}),
+      option_key<T, &T::min_periods>("min_periods",
+                                     "periods of a component at least, with mastery 'posterior', 'exam' or 'regret'",
+                                     {1, kManyPeriods}),
       option_key<T, &T::max_periods>("max_periods", "periods after which a session ends at the latest",
                                      {1, kManyPeriods}),
       option_key<T, &T::consecutive_correct>(

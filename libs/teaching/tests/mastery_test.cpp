@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "item_delivery.hpp"
+#include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/teaching/session.hpp"
 
@@ -15,7 +16,9 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::Ge;
+using ::testing::HasSubstr;
 using testing::item_delivery;
+using ::testing::ThrowsMessage;
 
 std::vector<RandomStream> two_people() { return {RandomStream{7}.split("anna"), RandomStream{7}.split("ben")}; }
 
@@ -118,6 +121,25 @@ TEST(Mastery, ExamTakesLongerTheMoreCertainItHasToBe) {
     EXPECT_GE(session.periods(), least);
     least = session.periods();
   }
+}
+
+TEST(Mastery, RegretStopsSoonerTheMoreMayBeLost) {
+  TeachingCache cache{item_delivery()};
+  std::size_t most = 1000;
+  for (const double max_regret : {0.001, 0.1, 2.0}) {
+    auto rule = stop_rule_named("regret");
+    rule.parameters.set("max_regret", max_regret);
+    auto session = session_of_two(cache, "joint", {.mastery = rule, .max_periods = 40});
+    while (session.propose(cache)) session.submit(answers_to(session, true));
+    EXPECT_EQ(session.status(), SessionStatus::kComplete);
+    EXPECT_LE(session.periods(), most);
+    most = session.periods();
+  }
+  EXPECT_LT(most, 10u);
+  const Atlas on_demand{load_domain("item-delivery"), BehaviourSource::kOnDemand};
+  TeachingCache sampled{on_demand};
+  EXPECT_THAT([&] { session_of_two(sampled, "joint", {.mastery = stop_rule_named("regret")}); },
+              ThrowsMessage<Error>(HasSubstr("'mastery = \"exam\"'")));
 }
 
 TEST(Mastery, MinPeriodsHoldsBackTheExam) {

@@ -97,11 +97,10 @@ class LearnerBank {
   /// Expected mass of the weights that satisfy the half-spaces, under the same mixture.
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const;
 
-  /// The probability that `share_right` of what the person believes is at least this much, under the same mixture; who
-  /// guesses is right too rarely, and what hypotheses take for imitations of demonstrations counts as wrong.
-  /// @param share_right  the expected share of starts, in [0, 1], that people with a belief predict right.
-  [[nodiscard]] double probability_of_at_least(double share,
-                                               const std::function<double(const ParticleBelief&)>& share_right) const;
+  /// The probability of something that depends on what the person believes, under the same mixture; of those who guess
+  /// it is taken not to hold.
+  /// @param holds  gets a belief, and the share of answers that are the person's own and no imitations.
+  [[nodiscard]] double probability_that(const std::function<bool(const ParticleBelief&, double own)>& holds) const;
 
   friend bool operator==(const LearnerBank& a, const LearnerBank& b) {
     return a.hypotheses_ == b.hypotheses_ && a.weights_ == b.weights_ && a.people_ == b.people_ &&

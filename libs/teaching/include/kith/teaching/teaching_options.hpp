@@ -59,9 +59,9 @@ struct TeachingOptions {
   std::size_t max_periods = 50;                       ///< >= 1
   std::size_t consecutive_correct = 1;    ///< "all-right": periods in a row that everybody must answer all right, >= 1
   std::size_t periods_per_component = 3;  ///< "fixed": >= 1
-  double probability = 0.9;               ///< "posterior" and "exam": in (0, 1)
+  double probability = 0.9;               ///< "posterior", "exam" and "regret": in (0, 1)
   double share_right = 0.95;              ///< "exam": in (0, 1)
-  std::size_t min_periods = 1;            ///< "posterior" and "exam": periods of a component at least, >= 1
+  std::size_t min_periods = 1;            ///< "posterior", "exam", "regret": periods of a component at least, >= 1
   /// Which members are done with a component before the team is; nothing: nobody [jayaraman2024]. They have no part in
   /// its remaining periods and return with the next component. Once nobody is left, it counts as learned, whatever
   /// `mastery` says.
