@@ -14,12 +14,12 @@ tidy_tree() {
   printf 'add_subdirectory(low)\nadd_subdirectory(high)\n' >libs/CMakeLists.txt
   printf 'kith_module(low)\n' >libs/low/CMakeLists.txt
   printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
-  printf 'add_subdirectory(live)\nadd_subdirectory(table)\nadd_subdirectory(report)\n' >>libs/CMakeLists.txt
+  printf 'add_subdirectory(live)\nadd_subdirectory(files)\nadd_subdirectory(report)\n' >>libs/CMakeLists.txt
   printf 'kith_module(live)\n' >libs/live/CMakeLists.txt
   mkdir -p libs/files/include/kith/files libs/report/src
   printf 'kith_module(files)\n' >libs/files/CMakeLists.txt
   printf 'kith_module(report)\n' >libs/report/CMakeLists.txt
-  printf '## Layers\n\n```text\nlow high  what is below\nlive table report  people\n```\n\n## Read first\n' >docs/architecture.md
+  printf '## Layers\n\n```text\nlow high  what is below\nlive files report  people\n```\n\n## Read first\n' >docs/architecture.md
   printf '#pragma once\nstruct Left {\n  constexpr Kind kKind{"left", "leave"};\n};\n' >libs/live/include/kith/live/room_event.hpp
   printf '// Tells kinds apart.\nconst bool is_there = std::ranges::any_of(people, here);\n' >libs/live/src/room.cpp
   mkdir -p apps/lesson/src
@@ -76,7 +76,7 @@ tidy_tree
 expect 1 budget 'a tree without budgets'
 {
   printf '\n## Budget\n\n'
-  for part in low high live table report; do
+  for part in low high live files report; do
     printf '| %s | what | %s | %s |\n' $part "$(cat $(find libs/$part -type f) | wc -l)" 50
   done
   printf '| apps | what | %s | 50 |\n' "$(cat $(find apps -type f) | wc -l)"

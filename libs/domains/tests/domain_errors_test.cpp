@@ -477,7 +477,7 @@ TEST(DomainErrorIds, AreAllTriggeredHere) {
     const bool of_models = (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" ||
                            id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205" || id == "W0210" ||
                            id == "W0211";
-    const bool of_layers = (id >= "E0265" && id < "E0300") || id == "W0206";
+    const bool of_layers = (id >= "E0265" && id < "E0300") || id == "W0206" || id == "W0208" || id == "W0209";
     // Those of models: model_errors_test; of layers and rasters: layers_test; of what was inferred: policy_file_test.
     EXPECT_TRUE(of_models || of_layers || id == "E0318" || id == "E0319" || triggered.contains(id)) << id;
   }

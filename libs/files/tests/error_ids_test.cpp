@@ -36,7 +36,11 @@ std::set<std::string> triggered_ids() {
   return ids;
 }
 
-TEST(TomlErrorIds, AreAllTriggeredHere) { EXPECT_EQ(kith::testing::error_ids_in("toml"), triggered_ids()); }
+TEST(TomlErrorIds, AreAllTriggeredHere) {
+  auto ids = kith::testing::error_ids_in("files");
+  std::erase_if(ids, [](const std::string& id) { return id >= "E0200"; });  // those of tables have tests of their own
+  EXPECT_EQ(ids, triggered_ids());
+}
 
 }  // namespace
 }  // namespace kith

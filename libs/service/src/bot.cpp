@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kith/live/room_event.hpp"
+
 namespace kith {
 namespace {
 
@@ -192,8 +194,8 @@ void Bot::send(BotAct act) {
   message.id = id_prefix_ + std::to_string(next_id_++);
   message.frame = Json{{"t", act.type}, {"id", message.id}, {"body", std::move(act.body)}}.dump();
   message.key = act.key;
-  message.is_answer = act.type == "answer";
-  message.is_continue = act.type == "continue";
+  message.is_answer = act.type == happening::Answered::kKind.command;
+  message.is_continue = act.type == happening::Continued::kKind.command;
   pending_ = std::move(message);
   transmit();
 }
