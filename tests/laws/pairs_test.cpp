@@ -54,9 +54,8 @@ CoveringArray made_pairs() {
 
   const auto word = [factors](const Level& level) { return factors[level.factor].levels[level.level]; };
   return CoveringArray{factors, [=](const Level& a, const Level& b) {
-                         // "regret" needs tabulated behaviours.
                          if ((a.factor == kMastery || a.factor == kRelease) && word(a) == "regret") {
-                           return b.factor != kDomain || word(b) == "exact";
+                           return b.factor != kDomain || word(b) == "exact";  // tabulated
                          }
                          if (a.factor != kMedium) return true;
                          const auto medium = word(a), what = word(b);
