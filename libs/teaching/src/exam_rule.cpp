@@ -128,8 +128,8 @@ StopRuleKind regret_kind() {
       .make = [](const ParameterValues& parameters, TeachingCache& cache) -> std::unique_ptr<const StopRule> {
         if (cache.shared_exam()->table() == nullptr) {
           throw Error{ErrorKind::kInfeasible,
-                      "'mastery = \"regret\"' needs a domain of three features whose behaviours are tabulated",
-                      "write 'mastery = \"exam\"', which goes by the share of starts predicted right"};
+                      "'mastery = \"regret\"' needs a domain of three features whose behaviours are tabulated: write "
+                      "'mastery = \"exam\"', which goes by the share of starts predicted right"};
         }
         return std::make_unique<ExamRule>(cache, parameters.real(kMaxRegret));
       },
