@@ -102,14 +102,14 @@ TEST(Memory, IsSaidInFewDigits) {
 }
 
 TEST(Memory, ThatIsNotThereIsSaidBeforeItIsTaken) {
-  setenv("KITH_MEMORY", "4000M", 1);
-  require_memory(4'000'000'000, "planning", "");
+  setenv("KITH_MEMORY", "4000G", 1);  // what the tests themselves take is far below a digit of it
+  require_memory(4'000'000'000'000, "planning", "");
   try {
-    require_memory(6'000'000'000, "planning 90000 states", "use a smaller map");
-    ADD_FAILURE() << "6 GB of 4 were found";
+    require_memory(6'000'000'000'000, "planning 90000 states", "use a smaller map");
+    ADD_FAILURE() << "6 TB of 4 were found";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
-    EXPECT_STREQ(error.what(), "planning 90000 states needs about 6 GB of memory; 4.2 GB are free");
+    EXPECT_STREQ(error.what(), "planning 90000 states needs about 6000 GB of memory; 4290 GB are free");
     ASSERT_EQ(error.diagnostics().size(), 1u);
     EXPECT_EQ(error.diagnostics()[0].id, "E1201");
     EXPECT_EQ(error.diagnostics()[0].hint, "use a smaller map");
