@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(AllModels, LearnerModelFiles,
 
 // --- strategies and rules of aggregation -------------------------------------------
 
-std::string formats_page() {
-  std::ifstream file{std::string{KITH_SOURCE_DIR} + "/docs/formats.md"};
+std::string study_page() {
+  std::ifstream file{std::string{KITH_SOURCE_DIR} + "/docs/study-files.md"};
   return {std::istreambuf_iterator<char>{file}, {}};
 }
 
@@ -97,7 +97,7 @@ TEST(StrategyKinds, AreInTheDocuments) {
   for (const auto& kind : strategy_kinds()) {
     table += "| `" + std::string{kind.name} + "` | " + std::string{kind.description} + " |\n";
   }
-  EXPECT_NE(formats_page().find(table + "\n"), std::string::npos) << "docs/formats.md must contain:\n\n" << table;
+  EXPECT_NE(study_page().find(table + "\n"), std::string::npos) << "docs/study-files.md must contain:\n\n" << table;
 }
 
 TEST(AggregationRules, AreInTheDocuments) {
@@ -105,7 +105,7 @@ TEST(AggregationRules, AreInTheDocuments) {
   for (const auto& rule : aggregation_rules()) {
     table += "| `" + std::string{rule.name} + "` | " + std::string{rule.description} + " |\n";
   }
-  EXPECT_NE(formats_page().find(table + "\n"), std::string::npos) << "docs/formats.md must contain:\n\n" << table;
+  EXPECT_NE(study_page().find(table + "\n"), std::string::npos) << "docs/study-files.md must contain:\n\n" << table;
 }
 
 // --- a model of one's own --------------------------------------------------------

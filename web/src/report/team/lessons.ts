@@ -1,4 +1,4 @@
-// The lessons of single teams, as the document has them (docs/formats.md).
+// The lessons of single teams, as the document has them (docs/json.md).
 import type { Board, MapDomain } from '../../shared/board/types';
 
 // [period, component, member or 0 for all, shown boards, conveyed sentences, [[board, "10-"]], knowledge in hundredths]

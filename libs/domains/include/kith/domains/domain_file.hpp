@@ -26,7 +26,7 @@ struct DomainLimits {
   std::size_t max_states = 2'000'000;  ///< Of all MDPs together; about 250 bytes each.
 };
 
-/// Parses and checks a domain file (schema kith.domain/1, see docs/formats.md).
+/// Parses and checks a domain file (schema kith.domain/1, see docs/domain-files.md).
 /// All errors of a file are reported at once (at most 20); `name` is used in
 /// messages. The files of an explicit model are read too. Never throws for bad content.
 [[nodiscard]] DomainReading parse_domain(std::string_view text, const std::string& name,

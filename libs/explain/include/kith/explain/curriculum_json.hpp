@@ -8,7 +8,7 @@
 
 namespace kith {
 
-/// The document kith.curriculum/1, which the lesson page shows (docs/formats.md).
+/// The document kith.curriculum/1, which the lesson page shows (docs/json.md).
 /// @param seed     that the curriculum was made with. @param program  that made it, such as "kith 0.1.0".
 [[nodiscard]] Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint64_t seed,
                                    const std::string& program);

@@ -7,7 +7,7 @@
 
 namespace kith {
 
-/// The people of a run folder (docs/formats.md, section 3): what they saw (demonstrations.csv), answered
+/// The people of a run folder (docs/tables.md): what they saw (demonstrations.csv), answered
 /// (responses.csv) and are labelled (learners.csv). What is known of them apart from the parameters (filter, prior,
 /// cap, scale) is taken from the frozen study. The true parameters in learners.csv are
 /// kept to compare with.

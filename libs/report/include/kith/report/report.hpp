@@ -25,7 +25,7 @@ struct ReportOptions {
 };
 
 /// The report of a finished run, or of the tables that were exported from live sessions: one JSON document (schema
-/// kith.report/1, docs/formats.md) on one line, in ASCII. It holds the tables behind the figures with their intervals,
+/// kith.report/1, docs/json.md) on one line, in ASCII. It holds the tables behind the figures with their intervals,
 /// the findings of the analysis, a methods paragraph with its references, every parameter, how to reproduce the run,
 /// and the beliefs of three teams, which are taught again from the frozen inputs. It depends on the files of the folder
 /// only, and on test_model: equal folders give equal bytes.

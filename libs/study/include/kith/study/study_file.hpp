@@ -34,7 +34,7 @@ struct StudyReadOptions {
   std::string override_name = "override";  ///< What diagnostics name in place of a file if an override is wrong.
 };
 
-/// Parses and checks a study file (schema kith.study/1, see docs/formats.md) with the overrides applied, reads
+/// Parses and checks a study file (schema kith.study/1, see docs/study-files.md) with the overrides applied, reads
 /// its domain, and expands the varied keys: every combination of their values is one variant, the first key slowest.
 /// All errors are reported at once (at most 20 of one file); `name` is used in messages. Never throws for bad content.
 [[nodiscard]] StudyReading parse_study(std::string_view text, const std::string& name,

@@ -84,7 +84,7 @@ struct StudyKinds {
 };
 
 /// A study as it will be run: every key of a study file, resolved, for one
-/// setting of the varied factors. See docs/formats.md.
+/// setting of the varied factors. See docs/study-files.md.
 struct StudySpec {
   std::string id;
   std::string title;
