@@ -1,4 +1,4 @@
-// The tables and claims of docs/teachers.md.
+// The tables and claims of research/teachers/teachers.md.
 import { study } from './runs.mjs';
 import { areaUnderCurve, correlation, errorOfMean, groupBy, mean, share } from './statistics.mjs';
 import { teamsAfter } from './items.mjs';

@@ -1,9 +1,10 @@
-// Regenerates the pages of docs/ whose figures are computed, or checks that they are what this program computes.
+// Regenerates the pages of docs/ whose figures are computed, or checks that they are what this program computes. Of
+// results with a date, in research/, only the page that is named: they stay what was computed on that day.
 //
 //   node tests/validation/validation.mjs KITH --write
 //   node tests/validation/validation.mjs KITH --check
 //
-//   --page FILE   only this page, or a copy of one by the same name (all of them)
+//   --page FILE   only this page, or a copy of one by the same name (all of docs/)
 //   --only NAMES  only these tables, figures, claims and files that quote figures, separated by commas
 //   --keep DIR    keep the runs, and use those of the same program that are there
 //
@@ -24,7 +25,8 @@ import * as validation from './validation_content.mjs';
 const source = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 
 // What fills in a page: {COMMANDS, makeContent}.
-const CONTENT = { 'validation.md': validation, 'teachers.md': teachers, 'gallery.md': gallery, 'minds.md': minds };
+const CONTENT = { 'validation.md': validation, 'gallery.md': gallery };
+const DATED = { 'teachers.md': teachers, 'minds.md': minds };
 
 function readArguments() {
   const { values, positionals } = parseArgs({
@@ -81,8 +83,9 @@ function missingQuotes(quotes, wanted) {
 }
 
 function update(page, folder, { kith, write, only }) {
-  const content = CONTENT[basename(page)];
-  if (!content) throw new Error(`no content is known for a page '${basename(page)}', only for ${Object.keys(CONTENT).join(', ')}`);
+  const known = { ...CONTENT, ...DATED };
+  const content = known[basename(page)];
+  if (!content) throw new Error(`no content is known for a page '${basename(page)}', only for ${Object.keys(known).join(', ')}`);
   const before = readFileSync(page, 'utf8');
   const names = only?.split(',');
   const wanted = (name) => !names || names.includes(name);
@@ -94,7 +97,8 @@ function update(page, folder, { kith, write, only }) {
     ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`),
     ...missingQuotes(made.quotes ?? {}, wanted),
   ];
-  if (write) writeFileSync(page, printPage(fresh));
+  const today = new Date().toLocaleDateString('en-GB', { day: 'numeric', month: 'long', year: 'numeric' });
+  if (write) writeFileSync(page, printPage(fresh).replace(/^Computed on .*$/m, `Computed on ${today}.`));
   for (const line of [...differences.map((one) => one.line), ...problems]) console.log(line);
   const beyond = differences.filter((one) => one.beyond).length;
   console.log(`${page}: ${differences.length} figures ${write ? 'changed' : 'differ'}, ${beyond} of them beyond chance`);
