@@ -26,6 +26,8 @@ expect 1 'a failure before the last command' '```sh' './run.sh fails' 'kith work
 expect 1 'a failure in the second block' '```sh' 'kith works' '```' 'text' '```sh' 'kith fails' '```'
 expect 0 'blocks share one folder' '```sh' 'touch a' '```' '```sh' 'test -e a' '```'
 expect 77 'other languages are not run' '```toml' 'kith fails' '```' '```' 'kith fails' '```'
+expect 0 'a block that runs until it is stopped' '```sh stopped: waits' 'sleep 60' '```'
+expect 1 'a block that ends before it is stopped' '```sh stopped: waits' 'kith works' '```'
 expect 77 'a skipped block with its reason' '```sh skip: needs the network' 'kith fails' '```'
 expect 1 'a skipped block without a reason' '```sh skip:' 'kith fails' '```'
 expect 1 'a block that never ends' '```sh' 'kith works'

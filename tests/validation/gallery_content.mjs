@@ -12,7 +12,6 @@ const ROBOTS = {
   four_rooms: 'four rooms',
   warehouse: 'warehouse',
 };
-const BUILT_IN = ['warehouse'];
 const STRATEGIES = ['plan', 'joint', 'baseline'];
 const SOON = 30; // periods
 
@@ -21,7 +20,7 @@ const FINISHED = 0.9;
 const REGRET_LEFT = 0.1;
 const SHARE_RIGHT = 0.85;
 
-const folderOf = (robot) => (BUILT_IN.includes(robot) ? 'domains' : 'domains/gallery');
+const folderOf = (robot) => (robot === 'warehouse' ? 'domains' : 'domains/gallery');
 const fileOf = (robot) => `${folderOf(robot)}/${robot}.toml`;
 
 export const COMMANDS = {

@@ -140,7 +140,6 @@ export function makeContent(runs) {
       });
   };
   const sureForecasts = () => forecasts().filter(({ forecast }) => forecast >= 0.9);
-  const lowForecasts = () => forecasts().filter(({ forecast }) => forecast < 0.1);
 
   const tables = {
     anytime: () => ({
@@ -209,8 +208,6 @@ export function makeContent(runs) {
         return value(released, 'joint', 'person periods') < 0.67 * value(all, 'joint', 'person periods') && value(released, 'joint', 'p_BEC') < value(all, 'joint', 'p_BEC') - 0.05;
       }),
   };
-  const doneShare = (rows) => share(rows.reduce((sum, row) => sum + row.done, 0), rows.length);
-  const forecastMean = (rows) => mean(rows.map((row) => row.forecast));
   // The smallest and the largest value of a team; of all strategies without one.
   const rangeOf = (run, strategy, measure, digits) => {
     const teams = runs.table(run, 'teams').filter((team) => !strategy || team.strategy === strategy);
@@ -219,10 +216,9 @@ export function makeContent(runs) {
   };
   const ability = (run, letters) =>
     Object.fromEntries(
-      Object.entries({ correlation: 'correlation', area: 'auc', covered: 'covered', told: 'told', correctly: 'told-right' }).map(([measure, name]) => [
-        `${letters}-${name}`,
-        () => figure(abilities(run, 9, letters)[measure], 2),
-      ]),
+      [['correlation', 'correlation'], ['area', 'auc'], ['covered', 'covered'], ['told', 'told'], ['correctly', 'told-right']].map(
+        ([measure, name]) => [`${letters}-${name}`, () => figure(abilities(run, 9, letters)[measure], 2)],
+      ),
     );
   const figures = {
     ...ability('abilities', 'NP'),
@@ -236,11 +232,8 @@ export function makeContent(runs) {
       ]),
     ),
     'sure-forecasts': () => String(sureForecasts().length),
-    'sure-forecast-mean': () => forecastMean(sureForecasts()).toFixed(3),
-    'sure-forecast-share': () => figure(doneShare(sureForecasts()), 3),
-    'low-forecasts': () => String(lowForecasts().length),
-    'low-forecast-mean': () => forecastMean(lowForecasts()).toFixed(3),
-    'low-forecast-share': () => figure(doneShare(lowForecasts()), 3),
+    'sure-forecast-mean': () => mean(sureForecasts().map((row) => row.forecast)).toFixed(3),
+    'sure-forecast-share': () => figure(share(sureForecasts().filter((row) => row.done).length, sureForecasts().length), 3),
     'navigation-right': () => figure(of('stop by the exam, navigation', 'joint', 'share right'), 2),
     'navigation-knowledge': () => figure(of('stop by the exam, navigation', 'joint', 'p_BEC'), 2),
     'exam-stop-joint-periods': () => rangeOf('stop by the exam, navigation', 'joint', 'periods', 0),

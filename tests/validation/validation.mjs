@@ -1,5 +1,4 @@
-// Regenerates the pages of docs/ whose figures are computed, or checks that they are what this program computes. Of
-// results with a date, in research/, only the page that is named: they stay what was computed on that day.
+// Regenerates the pages of docs/ whose figures are computed, or checks them. Results with a date, in research/, only if named.
 //
 //   node tests/validation/validation.mjs KITH --write
 //   node tests/validation/validation.mjs KITH --check
@@ -83,9 +82,8 @@ function missingQuotes(quotes, wanted) {
 }
 
 function update(page, folder, { kith, write, only }) {
-  const known = { ...CONTENT, ...DATED };
-  const content = known[basename(page)];
-  if (!content) throw new Error(`no content is known for a page '${basename(page)}', only for ${Object.keys(known).join(', ')}`);
+  const content = { ...CONTENT, ...DATED }[basename(page)];
+  if (!content) throw new Error(`no content is known for a page '${basename(page)}'`);
   const before = readFileSync(page, 'utf8');
   const names = only?.split(',');
   const wanted = (name) => !names || names.includes(name);
