@@ -13,7 +13,7 @@
 #include "kith/live/world_json.hpp"
 #include "kith/study/session_forecasts.hpp"
 #include "live_texts.hpp"
-#include "room_body.hpp"
+#include "message_json.hpp"
 #include "room_state.hpp"
 
 namespace kith {
@@ -346,8 +346,10 @@ Json language_json(const LiveStudy& study) {
 Json collected_query(const LiveStudy& study, const Json& query) {
   constexpr std::size_t kMostBytes = 200;
   Json collected = Json::object();
+  if (!query.is_object()) return collected;
   for (const auto& name : study.group().collect_query) {
-    if (auto value = text_in(query, name, kMostBytes)) collected[name] = *std::move(value);
+    auto value = read_within<std::string>(query.value(name, Json{}), {.longest = kMostBytes});
+    if (value) collected[name] = *std::move(value);
   }
   return collected;
 }

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "kith/live/room_event.hpp"
+#include "message_json.hpp"
 
 namespace kith {
 
-// Bodies of commands come from anybody: every member is checked before it is used.
+// Commands come from anybody: what asks for an event is read through the members that the event declares.
 
 [[nodiscard]] inline Decision refused(std::string reason, std::string text) {
   return {{}, Refusal{std::move(reason), std::move(text)}};
@@ -22,42 +22,59 @@ namespace kith {
 template <typename Event>
 struct OfKind {};
 
-/// Whether this sender may ask so.
+/// Which kind of event this sender asks for in this way, the first if there are several; their number: none.
+[[nodiscard]] constexpr std::size_t kind_asked_for(RoomSender sender, std::string_view command) {
+  std::size_t i = 0;
+  const auto is = [&](const RoomEventKind& kind) {
+    return kind.sender == sender && !kind.command.empty() && kind.command == command;
+  };
+  while (i < kRoomEventKinds.size() && !is(kRoomEventKinds[i])) ++i;
+  return i;
+}
 [[nodiscard]] constexpr bool is_command(RoomSender sender, std::string_view command) {
-  for (const auto& kind : kRoomEventKinds) {
-    if (kind.sender == sender && !kind.command.empty() && kind.command == command) return true;
-  }
-  return false;
+  return kind_asked_for(sender, command) < kRoomEventKinds.size();
 }
 
-/// What ask(OfKind<Event>{}) decides for the first kind of event that the command leads to. Every kind that this sender
-/// can ask for needs an overload. @pre is_command()
-template <RoomSender kSender, typename Ask>
-[[nodiscard]] Decision asked(std::string_view command, Ask ask) {
-  std::optional<Decision> decision;
-  const auto try_kind = [&]<typename Event>(OfKind<Event> kind) {
-    if constexpr (Event::kKind.sender == kSender && !Event::kKind.command.empty()) {
-      if (!decision && Event::kKind.command == command) decision = ask(kind);
+/// Reads an event from a command. @return why it cannot be; `incomplete` where the limits say nothing else.
+template <typename Event>
+[[nodiscard]] std::optional<Refusal> read_asked(const Json& body, std::string_view incomplete, Event& event) {
+  std::optional<Refusal> refusal;
+  for_each_member(event, [&]<typename T>(const auto& member, T& value) {
+    if (refusal || !member.asked) return;
+    const auto& limits = *member.asked;
+    const auto found = body.find(std::string{member.name});
+    if (found == body.end() && (member.may_miss || limits.may_miss || kIsOptional<T>)) return;
+    if (found != body.end() && read(*found, value) && is_within(value, limits)) return;
+    refusal = {std::string{limits.reason}, std::string{limits.text.empty() ? incomplete : limits.text}};
+  });
+  return refusal;
+}
+
+/// What decider.ask(event) says of the event that is asked for. Every kind that this sender can ask for needs an
+/// overload; where there is decider.closed(OfKind<Event>{}), it may decide before the body is looked at.
+/// @pre is_command()
+template <RoomSender kSender, typename Decider>
+[[nodiscard]] Decision asked(const Decider& decider, const RoomCommand& command, std::string_view incomplete) {
+  Decision decision;
+  const auto decide = [&]<typename Event>(OfKind<Event> kind) {
+    if constexpr (requires { decider.closed(kind); }) {
+      if (auto closed = decider.closed(kind)) return *std::move(closed);
+    }
+    Event event;
+    if (auto refusal = read_asked(command.body, incomplete, event)) return Decision{{}, std::move(refusal)};
+    return decider.ask(std::move(event));
+  };
+  const auto try_kind = [&]<std::size_t kIndex>(std::integral_constant<std::size_t, kIndex>) {
+    using Event = std::variant_alternative_t<kIndex, RoomHappening>;
+    if constexpr (kind_asked_for(kSender, Event::kKind.command) == kIndex) {
+      if (Event::kKind.command == command.type) decision = decide(OfKind<Event>{});
     }
   };
   [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
-    (try_kind(OfKind<std::variant_alternative_t<kIndex, RoomHappening>>{}), ...);
+    (try_kind(std::integral_constant<std::size_t, kIndex>{}), ...);
   }
   (std::make_index_sequence<std::variant_size_v<RoomHappening>>{});
-  return *std::move(decision);
+  return decision;
 }
-
-/// A member that is an integer in [min, max].
-[[nodiscard]] std::optional<std::int64_t> integer_in(const Json& body, std::string_view key, std::int64_t min,
-                                                     std::int64_t max);
-/// A member that is a string of at most `max` bytes of valid UTF-8 without control characters but line breaks.
-[[nodiscard]] std::optional<std::string> text_in(const Json& body, std::string_view key, std::size_t max);
-[[nodiscard]] bool is_clean_text(const std::string& text, std::size_t max);
-/// `actions`: a list of small numbers, as long as a message may be.
-[[nodiscard]] std::optional<std::vector<std::size_t>> actions_in(const Json& body);
-/// A member that is true or false; a missing one is false.
-[[nodiscard]] std::optional<bool> flag_in(const Json& body, std::string_view key);
-/// `keys`: what was pressed and when, [[action | "undo" | "reset", ms], ...]; a missing list is empty.
-[[nodiscard]] std::optional<Json> keys_in(const Json& body);
 
 }  // namespace kith

@@ -1,67 +1,32 @@
 #include "kith/live/room_event.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "kith/core/error.hpp"
+#include "message_json.hpp"
 
 namespace kith {
 
-namespace {
+namespace happening {
 
-// A value of a member; false if it is of another type.
-bool read(const Json& json, Json& value) {
-  value = json;
-  return true;
-}
-bool read(const Json& json, std::string& value) {
-  if (json.is_string()) value = json.get<std::string>();
-  return json.is_string();
-}
-bool read(const Json& json, bool& value) {
-  if (json.is_boolean()) value = json.get<bool>();
-  return json.is_boolean();
-}
-bool read(const Json& json, std::int64_t& value) {
-  if (json.is_number_integer()) value = json.get<std::int64_t>();
-  return json.is_number_integer();
-}
-bool read(const Json& json, std::size_t& value) {
-  std::int64_t number = -1;
-  if (!read(json, number) || number < 0) return false;
-  value = static_cast<std::size_t>(number);
-  return true;
-}
-template <typename T>
-bool read(const Json& json, std::optional<T>& value) {
-  value.reset();
-  return json.is_null() || read(json, value.emplace());
-}
-template <typename T>
-bool read(const Json& json, std::vector<T>& values) {
-  if (!json.is_array()) return false;
-  for (const auto& element : json) {
-    T value{};
-    if (!read(element, value)) return false;
-    values.push_back(std::move(value));
-  }
-  return true;
+bool is_object(const Json& json) { return json.is_object(); }
+
+bool is_frame(const Json& json) {
+  constexpr std::size_t kMostBytes = 2000;
+  return json.is_object() && json.dump().size() <= kMostBytes;
 }
 
-template <typename T>
-Json written(const T& value) {
-  return value;
-}
-template <typename T>
-Json written(const std::optional<T>& value) {
-  return value ? Json(*value) : Json{};
-}
-Json written(const std::vector<std::optional<std::size_t>>& values) {
-  Json list = Json::array();
-  for (const auto& value : values) list.push_back(written(value));
-  return list;
+bool are_keys(const Json& json) {
+  constexpr std::size_t kMostKeys = 2000;
+  const auto is_key = [](const Json& key) {
+    if (!key.is_array() || key.size() != 2 || !read_within<std::int64_t>(key[1], kTime)) return false;
+    return read_within<std::int64_t>(key[0], kFew) || key[0] == "undo" || key[0] == "reset";
+  };
+  return json.is_array() && json.size() <= kMostKeys && std::all_of(json.begin(), json.end(), is_key);
 }
 
-}  // namespace
+}  // namespace happening
 
 std::string seat_actor(std::size_t seat) { return "seat:" + std::to_string(seat); }
 
@@ -77,14 +42,7 @@ std::optional<std::size_t> seat_of_actor(std::string_view actor) noexcept {
 }
 
 Json body_of(const RoomEvent& event) {
-  Json body = Json::object();
-  const auto add = [&](std::string_view name, const auto& member) {
-    const bool may_miss = name.back() == '?';
-    if (may_miss && member == std::remove_cvref_t<decltype(member)>{}) return;
-    if (may_miss) name.remove_suffix(1);
-    body[std::string{name}] = written(member);
-  };
-  std::visit([&](const auto& what) { happening::for_each_member(what, add); }, event.what);
+  Json body = std::visit([](const auto& what) { return written(what); }, event.what);
   // What a facilitator gives as the reason comes last.
   const auto reason = body.find("reason");
   if (event.actor == "facilitator" && reason != body.end()) {
@@ -104,18 +62,17 @@ RoomEvent room_event(std::uint64_t seq, std::int64_t at_us, std::string actor, s
   if (!body.is_object()) throw wrong("its body is not an object");
   RoomEvent event{seq, at_us, std::move(actor), {}};
   std::size_t known = 0;
-  const auto take = [&](std::string_view name, auto& member) {
-    const bool may_miss = name.back() == '?';
-    if (may_miss) name.remove_suffix(1);
-    const auto found = body.find(std::string{name});
-    if (found == body.end() && may_miss) return;
-    if (found == body.end() || !read(*found, member)) throw wrong("it has no valid '" + std::string{name} + "'");
+  const auto take = [&](const auto& member, auto& value) {
+    if (member.asked && !member.asked->is_stored) return;
+    const auto found = body.find(std::string{member.name});
+    if (found == body.end() && member.may_miss) return;
+    if (found == body.end() || !read(*found, value)) throw wrong("it has no valid '" + std::string{member.name} + "'");
     ++known;
   };
   const bool is_known = [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
     const auto is = [&]<typename Event>(std::in_place_type_t<Event> kind) {
       if (Event::kKind.word != type) return false;
-      happening::for_each_member(event.what.emplace<Event>(), take);
+      for_each_member(event.what.emplace<Event>(), take);
       static_cast<void>(kind);
       return true;
     };

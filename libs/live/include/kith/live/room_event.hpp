@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "kith/explain/json.hpp"
+#include "kith/live/message.hpp"
 
 namespace kith {
 
@@ -43,9 +43,29 @@ struct RoomEventKind {
 };
 
 /// Everything that can happen in a room. `seat` is a number of a person or stand-in, from 1, and `member` of a place of
-/// the session, from 0; without `seat` it is about that of the actor. `kMembers` are the names of the members in
-/// stores, in order; with '?' one that is left out unless it is set.
+/// the session, from 0; without `seat` it is about that of the actor. `kMembers` are the members as stores have them,
+/// in order; those with limits are also read from the command that asks for the event.
 namespace happening {
+
+inline constexpr std::size_t kMostNameBytes = 80;
+inline constexpr std::string_view kNoType = "The study has no learner type of this letter.";
+
+/// Numbers of tests, of actions in a path, of answers on a board.
+inline constexpr Limits kFew{.most = 1000};
+inline constexpr Limits kTime{.most = 86'400'000};
+inline constexpr Limits kVersion{.longest = 100};
+inline constexpr Limits kMayMiss{.may_miss = true};
+inline constexpr Limits kPlace{.least = 1, .reason = "no-seat", .text = "There is no such place in this group."};
+inline constexpr Limits kPlanned{.reason = "not-now",
+                                 .text = "Somebody has come or gone since this group was planned."};
+inline constexpr Limits kReason{
+    .longest = 500, .reason = "no-reason", .text = "State a reason; it is kept with the data."};
+
+[[nodiscard]] bool is_object(const Json& json);
+/// A state of a world as pages have it, not yet whether there is such a state.
+[[nodiscard]] bool is_frame(const Json& json);
+/// What was pressed and when, [[action | "undo" | "reset", ms], ...].
+[[nodiscard]] bool are_keys(const Json& json);
 
 inline constexpr auto kSeat = RoomSender::kSeat;
 inline constexpr auto kFacilitator = RoomSender::kFacilitator;
@@ -59,15 +79,21 @@ struct Joined {
   static constexpr RoomEventKind kKind{"joined", "join", kServer, kLogged};
   std::size_t seat = 0;
   std::optional<std::size_t> member{};
-  static constexpr std::tuple kMembers{"seat", &Joined::seat, "member", &Joined::member};
+  static constexpr std::tuple kMembers{
+      Member{"seat", &Joined::seat,
+             Limits{.least = 1, .most = 1000, .may_miss = true, .text = "'seat' is not a number of a seat"}},
+      Member{"member", &Joined::member}};
 };
 
-/// Somebody agreed to that version of the text.
+/// Somebody agreed to that version of the text; what does not `accept` it is Declined.
 struct Consented {
   static constexpr RoomEventKind kKind{"consented", "consent", kSeat, kUnlogged, false, false, {kItsQuery}};
   std::string version;
   Json query;
-  static constexpr std::tuple kMembers{"version", &Consented::version, "query", &Consented::query};
+  bool accept = true;
+  static constexpr std::tuple kMembers{Member{"accept", &Consented::accept, Limits{.is_stored = false}},
+                                       Member{"version", &Consented::version, kVersion},
+                                       Member{"query", &Consented::query, kMayMiss}};
 };
 
 /// Whoever declines is gone, and the seat is free again.
@@ -87,7 +113,8 @@ struct Named {
   static constexpr RoomEventKind kKind{
       "named", "name", kSeat, kUnlogged, false, true, {PersonalMember{"name", PersonalMember::What::kName}}};
   std::string name;
-  static constexpr std::tuple kMembers{"name", &Named::name};
+  static constexpr std::tuple kMembers{
+      Member{"name", &Named::name, Limits{.longest = kMostNameBytes, .is_one_line = true}}};
 };
 
 /// An answer to a test of the screening; it may never end.
@@ -98,9 +125,10 @@ struct Screened {
   bool right = false;
   std::int64_t ms = 0;
   bool for_ever = false;
-  static constexpr std::tuple kMembers{"test",      &Screened::test,    "actions", &Screened::actions,
-                                       "right",     &Screened::right,   "ms",      &Screened::ms,
-                                       "for_ever?", &Screened::for_ever};
+  static constexpr std::tuple kMembers{Member{"test", &Screened::test, kFew},
+                                       Member{"actions", &Screened::actions, kFew}, Member{"right", &Screened::right},
+                                       Member{"ms", &Screened::ms, kTime},
+                                       Member{"for_ever?", &Screened::for_ever, Limits{}}};
 };
 
 /// An answer to board `test` of the exam, which begins in `start` (a StartIndex); it may never end.
@@ -111,9 +139,10 @@ struct Examined {
   bool right = false;
   std::int64_t ms = 0;
   bool for_ever = false;
-  static constexpr std::tuple kMembers{"test",    &Examined::test,    "start",     &Examined::start,
-                                       "actions", &Examined::actions, "right",     &Examined::right,
-                                       "ms",      &Examined::ms,      "for_ever?", &Examined::for_ever};
+  static constexpr std::tuple kMembers{
+      Member{"test", &Examined::test, kFew},       Member{"start", &Examined::start},
+      Member{"actions", &Examined::actions, kFew}, Member{"right", &Examined::right},
+      Member{"ms", &Examined::ms, kTime},          Member{"for_ever?", &Examined::for_ever, Limits{}}};
 };
 
 /// The lessons begin, by "server" or "facilitator"; whether stand-ins fill the places that are free.
@@ -122,7 +151,8 @@ struct Started {
   std::string by;
   bool fill = false;
   std::optional<std::string> reason{};
-  static constexpr std::tuple kMembers{"by", &Started::by, "fill", &Started::fill, "reason?", &Started::reason};
+  static constexpr std::tuple kMembers{Member{"by", &Started::by}, Member{"fill", &Started::fill},
+                                       Member{"reason?", &Started::reason, kReason}};
 };
 
 /// The teacher chose the next lesson, or has no further one.
@@ -131,15 +161,16 @@ struct LessonChosen {
   std::string key, digest;
   std::size_t period = 0;
   bool finished = false;
-  static constexpr std::tuple kMembers{"key",    &LessonChosen::key,    "digest",   &LessonChosen::digest,
-                                       "period", &LessonChosen::period, "finished", &LessonChosen::finished};
+  static constexpr std::tuple kMembers{Member{"key", &LessonChosen::key}, Member{"digest", &LessonChosen::digest},
+                                       Member{"period", &LessonChosen::period},
+                                       Member{"finished", &LessonChosen::finished}};
 };
 
 /// Somebody watched a demonstration.
 struct Watched {
   static constexpr RoomEventKind kKind{"watched", "watched", kSeat};
   std::size_t demo = 0;
-  static constexpr std::tuple kMembers{"demo", &Watched::demo};
+  static constexpr std::tuple kMembers{Member{"demo", &Watched::demo, kFew}};
 };
 
 /// What somebody has of a path so far.
@@ -147,7 +178,8 @@ struct Drafted {
   static constexpr RoomEventKind kKind{"draft", "draft", kSeat, kUnlogged, false};
   std::size_t test = 0;
   std::vector<std::size_t> actions;
-  static constexpr std::tuple kMembers{"test", &Drafted::test, "actions", &Drafted::actions};
+  static constexpr std::tuple kMembers{Member{"test", &Drafted::test, kFew},
+                                       Member{"actions", &Drafted::actions, kFew}};
 };
 
 /// An answer to a test, with what was pressed and when; it may never end. `erased`, of somebody who was withdrawn, is
@@ -156,13 +188,17 @@ struct Answered {
   static constexpr RoomEventKind kKind{"answered", "answer", kSeat};
   std::size_t test = 0;
   std::vector<std::size_t> actions;
-  Json keys;
+  Json keys = Json::array();
   std::int64_t ms = 0;
   bool for_ever = false;
   Json erased{};
-  static constexpr std::tuple kMembers{"test",      &Answered::test,     "actions", &Answered::actions,
-                                       "keys",      &Answered::keys,     "ms",      &Answered::ms,
-                                       "for_ever?", &Answered::for_ever, "erased?", &Answered::erased};
+  static constexpr std::tuple kMembers{
+      Member{"test", &Answered::test, kFew},
+      Member{"actions", &Answered::actions, kFew},
+      Member{"keys", &Answered::keys, Limits{.may_miss = true, .fits = are_keys, .type = "KeyPress[]"}},
+      Member{"ms", &Answered::ms, kTime},
+      Member{"for_ever?", &Answered::for_ever, Limits{}},
+      Member{"erased?", &Answered::erased}};
 };
 
 /// Somebody has seen the answers of the group to a test and keeps the own one, or takes one of the board.
@@ -171,7 +207,8 @@ struct Discussed {
   std::size_t test = 0;
   std::optional<std::size_t> choice{};
   std::int64_t ms = 0;
-  static constexpr std::tuple kMembers{"test", &Discussed::test, "choice", &Discussed::choice, "ms", &Discussed::ms};
+  static constexpr std::tuple kMembers{Member{"test", &Discussed::test, kFew},
+                                       Member{"choice", &Discussed::choice, kFew}, Member{"ms", &Discussed::ms, kTime}};
 };
 
 /// Somebody has seen the feedback.
@@ -187,7 +224,9 @@ struct Explored {
   Json start;
   std::optional<std::size_t> world;
   std::vector<std::string> map;
-  static constexpr std::tuple kMembers{"start", &Explored::start, "world?", &Explored::world, "map?", &Explored::map};
+  static constexpr std::tuple kMembers{Member{"start", &Explored::start, Limits{.fits = is_frame, .type = "Frame"}},
+                                       Member{"world?", &Explored::world, Limits{}},
+                                       Member{"map?", &Explored::map, Limits{}}};
 };
 
 /// Answers to the questions at the end, by id.
@@ -200,7 +239,8 @@ struct QuestionsAnswered {
                                        true,
                                        {PersonalMember{"answers", PersonalMember::What::kAnswers}}};
   Json answers;
-  static constexpr std::tuple kMembers{"answers", &QuestionsAnswered::answers};
+  static constexpr std::tuple kMembers{Member{"answers", &QuestionsAnswered::answers,
+                                              Limits{.fits = is_object, .type = "Record<string, string | number>"}}};
 };
 
 /// Somebody leaves by their own choice; `by` takes the seat over, a stand-in if it has a type.
@@ -208,21 +248,21 @@ struct Left {
   static constexpr RoomEventKind kKind{"left", "leave", kSeat, kLogged};
   std::optional<std::size_t> by{};
   std::optional<std::string> type{};
-  static constexpr std::tuple kMembers{"by", &Left::by, "type", &Left::type};
+  static constexpr std::tuple kMembers{Member{"by", &Left::by}, Member{"type", &Left::type}};
 };
 
 /// Somebody is not there.
 struct Away {
   static constexpr RoomEventKind kKind{"away", "away", kServer, kLogged};
   std::size_t seat = 0;
-  static constexpr std::tuple kMembers{"seat", &Away::seat};
+  static constexpr std::tuple kMembers{Member{"seat", &Away::seat, kPlace}};
 };
 
 /// Somebody is there again.
 struct Present {
   static constexpr RoomEventKind kKind{"present", "present", kServer, kLogged};
   std::size_t seat = 0;
-  static constexpr std::tuple kMembers{"seat", &Present::seat};
+  static constexpr std::tuple kMembers{Member{"seat", &Present::seat, kPlace}};
 };
 
 /// The grace period is over; as Left.
@@ -232,8 +272,8 @@ struct Dropped {
   std::string policy;
   std::optional<std::size_t> by{};
   std::optional<std::string> type{};
-  static constexpr std::tuple kMembers{"seat", &Dropped::seat, "policy", &Dropped::policy,
-                                       "by",   &Dropped::by,   "type",   &Dropped::type};
+  static constexpr std::tuple kMembers{Member{"seat", &Dropped::seat}, Member{"policy", &Dropped::policy},
+                                       Member{"by", &Dropped::by}, Member{"type", &Dropped::type}};
 };
 
 /// A seat in the lobby is free again.
@@ -241,7 +281,7 @@ struct Released {
   static constexpr RoomEventKind kKind{"released", "", kServer, kLogged};
   std::size_t seat = 0;
   std::string why;
-  static constexpr std::tuple kMembers{"seat", &Released::seat, "why", &Released::why};
+  static constexpr std::tuple kMembers{Member{"seat", &Released::seat}, Member{"why", &Released::why}};
 };
 
 /// On a waiting list: people have a place in a new room; by member whether it is simulated, and the seat on the list.
@@ -251,9 +291,11 @@ struct Grouped {
   std::vector<bool> simulated;
   std::vector<std::optional<std::size_t>> seats;
   std::string room;
-  static constexpr std::tuple kMembers{"strategy",  &Grouped::strategy,  "composition", &Grouped::composition,
-                                       "simulated", &Grouped::simulated, "seats",       &Grouped::seats,
-                                       "room",      &Grouped::room};
+  static constexpr std::tuple kMembers{
+      Member{"strategy", &Grouped::strategy, kPlanned}, Member{"composition", &Grouped::composition, kPlanned},
+      Member{"simulated", &Grouped::simulated, kPlanned}, Member{"seats", &Grouped::seats, kPlanned},
+      Member{"room", &Grouped::room,
+             Limits{.longest = 100, .reason = "not-now", .text = "No group can be formed at the moment."}}};
 };
 
 /// Somebody from the waiting list has the place. `from` is {room, seat} there, the rest what the room has to know of
@@ -268,30 +310,35 @@ struct Seated {
   std::string name;
   std::vector<bool> screened;
   std::int64_t ready_us = 0;
-  static constexpr std::tuple kMembers{
-      "seat",  &Seated::seat,  "member", &Seated::member, "from",     &Seated::from,     "version",  &Seated::version,
-      "query", &Seated::query, "name",   &Seated::name,   "screened", &Seated::screened, "ready_us", &Seated::ready_us};
+  static constexpr std::tuple kMembers{Member{"seat", &Seated::seat},
+                                       Member{"member", &Seated::member, kFew},
+                                       Member{"from", &Seated::from, Limits{.fits = is_object}},
+                                       Member{"version", &Seated::version, kVersion},
+                                       Member{"query", &Seated::query, kMayMiss},
+                                       Member{"name", &Seated::name, Limits{.longest = kMostNameBytes}},
+                                       Member{"screened", &Seated::screened, Limits{}},
+                                       Member{"ready_us", &Seated::ready_us, Limits{}}};
 };
 
 /// A time limit is over: that of a phase, or of the session.
 struct TimeOver {
   static constexpr RoomEventKind kKind{"time", "", kServer, kLogged};
   std::string what;
-  static constexpr std::tuple kMembers{"what", &TimeOver::what};
+  static constexpr std::tuple kMembers{Member{"what", &TimeOver::what}};
 };
 
 /// Nothing goes on until it is resumed.
 struct Paused {
   static constexpr RoomEventKind kKind{"pause", "pause", kFacilitator};
   std::string reason;
-  static constexpr std::tuple kMembers{"reason", &Paused::reason};
+  static constexpr std::tuple kMembers{Member{"reason", &Paused::reason, kReason}};
 };
 
 /// Everything goes on.
 struct Resumed {
   static constexpr RoomEventKind kKind{"resume", "resume", kFacilitator};
   std::string reason;
-  static constexpr std::tuple kMembers{"reason", &Resumed::reason};
+  static constexpr std::tuple kMembers{Member{"reason", &Resumed::reason, kReason}};
 };
 
 /// Time limits are later.
@@ -299,7 +346,10 @@ struct Extended {
   static constexpr RoomEventKind kKind{"extend", "extend", kFacilitator, kUnlogged, false};
   std::int64_t seconds = 0;
   std::string reason;
-  static constexpr std::tuple kMembers{"seconds", &Extended::seconds, "reason", &Extended::reason};
+  static constexpr std::tuple kMembers{
+      Member{"seconds", &Extended::seconds,
+             Limits{.least = 1, .most = 86'400, .text = "'seconds' must be a number from 1 to 86400."}},
+      Member{"reason", &Extended::reason, kReason}};
 };
 
 /// To a seat, or to everybody.
@@ -314,8 +364,9 @@ struct MessageSent {
   std::string text;
   std::optional<std::size_t> seat{};
   std::string reason;
-  static constexpr std::tuple kMembers{"text",   &MessageSent::text,  "seat", &MessageSent::seat,
-                                       "reason", &MessageSent::reason};
+  static constexpr std::tuple kMembers{
+      Member{"text", &MessageSent::text, Limits{.longest = 2000, .text = "'text' is missing or too long."}},
+      Member{"seat", &MessageSent::seat, kPlace}, Member{"reason", &MessageSent::reason, kReason}};
 };
 
 /// Somebody has their place again.
@@ -323,7 +374,8 @@ struct Readmitted {
   static constexpr RoomEventKind kKind{"readmit", "readmit", kFacilitator};
   std::size_t seat = 0;
   std::string reason;
-  static constexpr std::tuple kMembers{"seat", &Readmitted::seat, "reason", &Readmitted::reason};
+  static constexpr std::tuple kMembers{Member{"seat", &Readmitted::seat, kPlace},
+                                       Member{"reason", &Readmitted::reason, kReason}};
 };
 
 /// A stand-in of that type, seat `by`, takes the place.
@@ -333,44 +385,34 @@ struct Simulated {
   std::string type;
   std::size_t by = 0;
   std::string reason;
-  static constexpr std::tuple kMembers{"seat", &Simulated::seat, "type",   &Simulated::type,
-                                       "by",   &Simulated::by,   "reason", &Simulated::reason};
+  static constexpr std::tuple kMembers{
+      Member{"seat", &Simulated::seat, kPlace},
+      Member{"type", &Simulated::type,
+             Limits{.shortest = 1, .longest = 1, .may_miss = true, .reason = "no-type", .text = kNoType}},
+      Member{"by", &Simulated::by}, Member{"reason", &Simulated::reason, kReason}};
 };
 
 /// Another strategy from the next lesson on.
 struct StrategyNamed {
   static constexpr RoomEventKind kKind{"strategy", "strategy", kFacilitator};
   std::string name, reason;
-  static constexpr std::tuple kMembers{"name", &StrategyNamed::name, "reason", &StrategyNamed::reason};
+  static constexpr std::tuple kMembers{
+      Member{"name", &StrategyNamed::name, Limits{.longest = 200, .text = "'name' is missing."}},
+      Member{"reason", &StrategyNamed::reason, kReason}};
 };
 
 /// The session ended before its time.
 struct Ended {
   static constexpr RoomEventKind kKind{"ended", "end", kFacilitator, kLogged};
   std::string reason, text;
-  static constexpr std::tuple kMembers{"reason", &Ended::reason, "text", &Ended::text};
+  static constexpr std::tuple kMembers{Member{"reason", &Ended::reason, kReason}, Member{"text", &Ended::text}};
 };
-
-/// Calls visit(name, member) for every member of an event.
-template <typename Event, typename Visit>
-void for_each_member(Event& event, Visit visit) {
-  using Members = std::remove_cvref_t<decltype(Event::kMembers)>;
-  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
-    (visit(std::string_view{std::get<2 * kIndex>(Event::kMembers)}, event.*std::get<2 * kIndex + 1>(Event::kMembers)),
-     ...);
-  }
-  (std::make_index_sequence<std::tuple_size_v<Members> / 2>{});
-}
 
 /// Events are equal if all of their members are.
 template <typename Event>
 requires requires { Event::kKind; }
 bool operator==(const Event& a, const Event& b) {
-  using Members = std::remove_cvref_t<decltype(Event::kMembers)>;
-  return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
-    return ((a.*std::get<2 * kIndex + 1>(Event::kMembers) == b.*std::get<2 * kIndex + 1>(Event::kMembers)) && ...);
-  }
-  (std::make_index_sequence<std::tuple_size_v<Members> / 2>{});
+  return std::apply([&](const auto&... member) { return ((a.*member.at == b.*member.at) && ...); }, Event::kMembers);
 }
 
 }  // namespace happening

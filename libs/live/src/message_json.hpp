@@ -1,0 +1,129 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "kith/live/message.hpp"
+
+namespace kith {
+
+template <typename T>
+concept HasMembers = requires {
+  T::kMembers;
+};
+template <typename T>
+inline constexpr bool kIsOptional = false;
+template <typename T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+
+// --- reading: a value of a member; false if it is of another type ----------------------------------------------------
+
+inline bool read(const Json& json, Json& value) {
+  value = json;
+  return true;
+}
+inline bool read(const Json& json, std::string& value) {
+  if (json.is_string()) value = json.get<std::string>();
+  return json.is_string();
+}
+inline bool read(const Json& json, bool& value) {
+  if (json.is_boolean()) value = json.get<bool>();
+  return json.is_boolean();
+}
+inline bool read(const Json& json, std::int64_t& value) {
+  if (!json.is_number_integer() || (json.is_number_unsigned() && json.get<std::uint64_t>() > INT64_MAX)) return false;
+  value = json.get<std::int64_t>();
+  return true;
+}
+inline bool read(const Json& json, std::size_t& value) {
+  std::int64_t number = -1;
+  if (!read(json, number) || number < 0) return false;
+  value = static_cast<std::size_t>(number);
+  return true;
+}
+template <typename T>
+bool read(const Json& json, std::optional<T>& value) {
+  value.reset();
+  return json.is_null() || read(json, value.emplace());
+}
+template <typename T>
+bool read(const Json& json, std::vector<T>& values) {
+  if (!json.is_array()) return false;
+  for (const auto& element : json) {
+    T value{};
+    if (!read(element, value)) return false;
+    values.push_back(std::move(value));
+  }
+  return true;
+}
+
+// --- limits ----------------------------------------------------------------------------------------------------------
+
+inline bool is_within(bool, const Limits&) { return true; }
+inline bool is_within(const Json& value, const Limits& limits) { return limits.fits == nullptr || limits.fits(value); }
+inline bool is_within(std::int64_t value, const Limits& limits) {
+  return value >= limits.least && value <= limits.most;
+}
+inline bool is_within(std::size_t value, const Limits& limits) {
+  return is_within(static_cast<std::int64_t>(value), limits);
+}
+// Without control characters but line breaks and tabs. What nlohmann/json parsed is valid UTF-8 already.
+inline bool is_within(const std::string& text, const Limits& limits) {
+  if (text.size() < limits.shortest || text.size() > limits.longest) return false;
+  return std::none_of(text.begin(), text.end(), [&](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && c != '\t' && (c != '\n' || limits.is_one_line)) || byte == 0x7F;
+  });
+}
+template <typename T>
+bool is_within(const std::optional<T>& value, const Limits& limits) {
+  return !value || is_within(*value, limits);
+}
+template <typename T>
+bool is_within(const std::vector<T>& values, const Limits& limits) {
+  return std::all_of(values.begin(), values.end(), [&](const T& value) { return is_within(value, limits); });
+}
+
+/// A value of anybody, if it is of this type and within the limits.
+template <typename T>
+[[nodiscard]] std::optional<T> read_within(const Json& json, const Limits& limits) {
+  T value{};
+  return read(json, value) && is_within(value, limits) ? std::optional{std::move(value)} : std::nullopt;
+}
+
+// --- writing ---------------------------------------------------------------------------------------------------------
+
+template <typename T>
+[[nodiscard]] Json written(const T& value);
+template <typename T>
+[[nodiscard]] Json written(const std::optional<T>& value) {
+  return value ? written(*value) : Json{};
+}
+template <typename T>
+[[nodiscard]] Json written(const std::vector<T>& values) {
+  Json list = Json::array();
+  for (const T& value : values) list.push_back(written(value));
+  return list;
+}
+template <HasMembers T>
+[[nodiscard]] Json written(const T& object) {
+  Json json = Json::object();
+  for_each_member(object, [&](const auto& member, const auto& value) {
+    if (member.asked && !member.asked->is_stored) return;
+    if (member.may_miss && value == std::remove_cvref_t<decltype(value)>{}) return;
+    json[std::string{member.name}] = written(value);
+  });
+  return json;
+}
+template <typename T>
+Json written(const T& value) {
+  return value;
+}
+
+}  // namespace kith
