@@ -19,7 +19,7 @@ namespace {
 constexpr int kMostColumns = 12;  // of a map that pages draw in full size
 constexpr std::size_t kMostStates = 4000;
 
-Exploration impossible() { return {Json{{"impossible", true}}, {}}; }
+Exploration impossible() { return {{.impossible = true}, {}}; }
 
 std::optional<Cell> cell_of(const Json& json, const GridMap& map) {
   if (!json.is_array() || json.size() != 2 || !json[0].is_number_integer() || !json[1].is_number_integer()) {
@@ -104,16 +104,16 @@ Exploration explored(const Atlas& atlas, StartIndex demo) {
   const auto& domain = atlas.domain();
   const auto world = atlas.id(demo).mdp;
   auto robot = expected_path(atlas, demo);
-  Json shown{{"board", live_board(atlas, demo)}, {"other", nullptr}, {"differs_at", nullptr}, {"tie", false}};
+  view::Found found{.board = live_board(atlas, demo)};
   if (const auto contrast = trade(atlas, demo)) {
-    shown["other"] = path_json(domain, world, contrast->alternative);
-    shown["differs_at"] = contrast->decisive;
-    shown["reason"] = sentence(reason(atlas, *contrast));
-    shown["tie"] = dot(domain.weights().integer, contrast->robot_counts - contrast->alternative_counts) == 0;
+    found.other = path_json(domain, world, contrast->alternative);
+    found.differs_at = contrast->decisive;
+    found.reason = sentence(reason(atlas, *contrast));
+    found.tie = dot(domain.weights().integer, contrast->robot_counts - contrast->alternative_counts) == 0;
     robot = contrast->robot;
   }
-  shown["path"] = path_json(domain, world, robot);
-  Exploration result{std::move(shown), {}};
+  found.path = path_json(domain, world, robot);
+  Exploration result{{.found = std::move(found)}, {}};
   if (!atlas.is_candidate(demo)) return result;
   for (auto& half_space : atlas.constraints().half_spaces(atlas.one_step(demo))) {
     if (sign_of_dot(domain.weights().integer, half_space.normal()) > 0)

@@ -8,6 +8,7 @@
 
 #include "kith/geometry/half_space.hpp"
 #include "kith/live/live_study.hpp"
+#include "views.hpp"
 
 namespace kith {
 
@@ -20,10 +21,7 @@ struct AskedWorld {
 
 /// What the robot does there.
 struct Exploration {
-  /// {board, path, other, differs_at, reason, tie}; {impossible} if the robot cannot do its job there or nobody can be
-  /// where the frame says. `other` is the best path that trades something for something else, `tie` whether it is worth
-  /// the same to the robot.
-  Json shown;
+  view::Explored shown;
   std::vector<HalfSpace> conveyed;  ///< What the path tells about the weights; all hold strictly at the robot's.
 };
 

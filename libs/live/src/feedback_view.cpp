@@ -51,16 +51,6 @@ std::string detour_in_words(const Domain& domain, const std::vector<Excess>& cos
   return text + '.';
 }
 
-// A path as members of the entry of a test: `key`, and for a path that never ends key_repeats_from and
-// key_repeats_text.
-void add_path(Json& entry, const std::string& key, const Domain& domain, MdpIndex world, const Trajectory& path) {
-  auto json = path_json(domain, world, path);
-  entry[key] = std::move(json["frames"]);
-  for (const char* more : {"repeats_from", "repeats_text"}) {
-    if (json.contains(more)) entry[key + "_" + more] = std::move(json[more]);
-  }
-}
-
 // In which part of the cases a choice counts something of a feature.
 double chance_of(const Mdp& mdp, const Choice& choice, std::size_t feature) {
   double chance = 0.0;
@@ -71,12 +61,13 @@ double chance_of(const Mdp& mdp, const Choice& choice, std::size_t feature) {
 }
 
 // Costs that follow from the robot's action at a place less often than from another one.
-Json spared_by(const Domain& domain, MdpIndex world, StateIndex s, ActionIndex robot, ActionIndex own) {
+std::vector<std::size_t> spared_by(const Domain& domain, MdpIndex world, StateIndex s, ActionIndex robot,
+                                   ActionIndex own) {
   const auto& mdp = domain.mdp(world);
   const auto& choices = mdp.choices(s);
   const auto& robots = *std::ranges::find(choices, robot, &Choice::action);
   const auto& owns = *std::ranges::find(choices, own, &Choice::action);
-  Json spared = Json::array();
+  std::vector<std::size_t> spared;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     constexpr double kRounding = 1e-9;
     const bool is_rarer = chance_of(mdp, robots, k) + kRounding < chance_of(mdp, owns, k);
@@ -126,76 +117,82 @@ std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVec
   return detour_in_words(domain, costs, lost);
 }
 
-Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
+namespace {
+
+// How the answer to a test compares with the robot's.
+view::Judged judged_view(const RoomParts& room, const Test& test, bool right, const std::optional<GivenPath>& given) {
   const auto& atlas = *room.study.atlas;
   const auto& domain = atlas.domain();
+  const auto [world, start] = atlas.id(test.demo);
+  const auto& mdp = domain.mdp(world);
+  view::Judged judged{.board = live_board(room.study, test.demo), .right = right};
+  // Of a right answer that the shortest path gives, too, nothing is said.
+  if (!right || test.is_shortest_wrong) {
+    for (const auto& text : all_in_words(domain, test.covered)) judged.why.push_back(sentence(text));
+  }
+
+  auto robot = expected_path(atlas, test.demo);
+  std::string between;  // of the paths that are drawn, where counts would not say it
+  if (given) {
+    auto mine = judged_path(atlas, test.demo, given->actions, given->for_ever).path;
+    if (mdp.is_deterministic() && !is_exact(mdp)) between = choice_between(domain, world, robot, mine);
+    judged.differs_at = first_difference(mine, robot);
+    if (const auto at = judged.differs_at) {
+      const bool is_fork = *at < mine.actions.size() && *at < robot.actions.size();
+      if (!right && is_fork && !mdp.is_deterministic()) {
+        judged.chance = {world_key(room.study, world), world_state(room.study, world, start).value_or(0),
+                         spared_by(domain, world, robot.states[*at], robot.actions[*at], mine.actions[*at])};
+      }
+      // Both may go round in a cycle for a while before they part.
+      mine = written_out(std::move(mine), *at + 1);
+      robot = written_out(std::move(robot), *at + 1);
+    }
+    auto path = path_json(domain, world, mine);
+    judged.mine = path["frames"];
+    judged.mine_repeats_from = path.value("repeats_from", Json{});
+    judged.mine_repeats_text = path.value("repeats_text", Json{});
+  }
+  auto path = path_json(domain, world, robot);
+  judged.robot = path["frames"];
+  judged.robot_repeats_from = path.value("repeats_from", Json{});
+  judged.robot_repeats_text = path.value("repeats_text", Json{});
+
+  judged.unfinished = given && !given->is_finished;
+  if (!right && given && given->counts) {
+    judged.cost = between.empty() ? cost_in_words(domain, world, atlas.feature_counts(test.demo), *given->counts)
+                                  : "The robot takes another path: " + between + ".";
+  }
+  return judged;
+}
+
+}  // namespace
+
+view::Feedback feedback_view(const RoomParts& room, const LiveSeat& seat) {
   const auto& past = room.state.session->history().back();
   const auto& verdicts = past.feedback.final_verdicts(*seat.member);
-  Json tests = Json::array();
+  view::Feedback feedback;
   for (std::size_t t = 0; t < past.lesson.tests.size(); ++t) {
-    const auto& test = past.lesson.tests[t];
-    const auto world = atlas.id(test.demo).mdp;
     const bool right = t < verdicts.size() && verdicts[t].correct;
-    auto robot = expected_path(atlas, test.demo);
-    Json entry{{"board", live_board(room.study, test.demo)},
-               {"right", right},
-               {"mine", nullptr},
-               {"robot", nullptr},
-               {"differs_at", nullptr}};
-    Json why = Json::array();
-    // Of a right answer that the shortest path gives, too, nothing is said.
-    if (!right || test.is_shortest_wrong) {
-      for (const auto& text : all_in_words(domain, test.covered)) why.push_back(sentence(text));
-    }
-    entry["why"] = std::move(why);
-    const auto& mdp = domain.mdp(world);
-    std::string between;  // of the paths that are drawn, where counts would not say it
-    const auto& path = t < seat.paths.size() ? seat.paths[t] : std::optional<GivenPath>{};
-    if (path) {
-      auto mine = judged_path(atlas, test.demo, path->actions, path->for_ever).path;
-      if (mdp.is_deterministic() && !is_exact(mdp)) between = choice_between(domain, world, robot, mine);
-      if (const auto differs_at = first_difference(mine, robot)) {
-        entry["differs_at"] = *differs_at;
-        const bool is_fork = *differs_at < mine.actions.size() && *differs_at < robot.actions.size();
-        if (!right && is_fork && !mdp.is_deterministic()) {
-          entry["chance"] = {{"world", world_key(room.study, world)},
-                             {"state", world_state(room.study, world, atlas.id(test.demo).start).value_or(0)},
-                             {"spared", spared_by(domain, world, robot.states[*differs_at], robot.actions[*differs_at],
-                                                  mine.actions[*differs_at])}};
-        }
-        // Both may go round in a cycle for a while before they part.
-        mine = written_out(std::move(mine), *differs_at + 1);
-        robot = written_out(std::move(robot), *differs_at + 1);
-      }
-      add_path(entry, "mine", domain, world, mine);
-    }
-    add_path(entry, "robot", domain, world, robot);
-    entry["unfinished"] = path && !path->is_finished;
-    if (!right && path && path->counts) {
-      entry["cost"] = between.empty() ? cost_in_words(domain, world, atlas.feature_counts(test.demo), *path->counts)
-                                      : "The robot takes another path: " + between + ".";
-    }
-    tests.push_back(std::move(entry));
+    const auto& given = t < seat.paths.size() ? seat.paths[t] : std::nullopt;
+    feedback.tests.push_back(judged_view(room, past.lesson.tests[t], right, given));
   }
+
+  feedback.all_right = past.feedback.all_right_in_the_end(*seat.member);
+  feedback.learned = past.feedback.component_learned;
+  // Somebody else answered otherwise: why the group goes on for those who were right.
   const auto& all_correct = past.feedback.all_correct;
-  bool others_unsure = false;  // somebody else answered otherwise: why the group goes on for those who were right
-  for (std::size_t m = 0; m < all_correct.size(); ++m) {
-    others_unsure = others_unsure || (m != *seat.member && !past.feedback.verdicts[m].empty() && !all_correct[m]);
+  for (std::size_t m = 0; m < all_correct.size() && feedback.all_right && !feedback.learned; ++m) {
+    const bool is_unsure = m != *seat.member && !past.feedback.verdicts[m].empty() && !all_correct[m];
+    feedback.others_unsure = feedback.others_unsure || is_unsure;
   }
-  const bool all_right = past.feedback.all_right_in_the_end(*seat.member);
-  const bool learned = past.feedback.component_learned;
-  Json feedback{{"tests", tests},
-                {"all_right", all_right},
-                {"learned", learned},
-                {"others_unsure", all_right && !learned && others_unsure}};
   if (room.study.group().screens.brackets) {
-    const auto component = past.lesson.component;
-    feedback["brackets"] = known_brackets(room, seat, atlas.knowledge_components()[component].features);
+    feedback.brackets =
+        known_brackets(room, seat, room.study.atlas->knowledge_components()[past.lesson.component].features);
   }
   return feedback;
 }
 
-Json explore_json(const RoomParts& room, const LiveSeat& seat) {
+view::Explore explore_view(const RoomParts& room, const LiveSeat& seat) {
   const auto& atlas = *room.study.atlas;
   const auto* lesson = last_lesson(room.state);
   const bool has_test = lesson != nullptr && !lesson->tests.empty();
@@ -205,11 +202,10 @@ Json explore_json(const RoomParts& room, const LiveSeat& seat) {
   for (std::size_t k = 0; k < atlas.domain().num_features(); ++k) {
     if (k != reference) features.push_back(k);
   }
-  Json explore{{"first", explored(atlas, first).shown},
-               {"put", can_change_map(room.study) ? placeable_symbols(atlas.domain()) : std::vector<std::string>{}}};
-  explore["brackets"] = known_brackets(room, seat, features);
-  if (seat.exploration) explore["last"] = *seat.exploration;
-  return explore;
+  return {.first = explored(atlas, first).shown,
+          .put = can_change_map(room.study) ? placeable_symbols(atlas.domain()) : std::vector<std::string>{},
+          .brackets = known_brackets(room, seat, features),
+          .last = seat.exploration ? std::optional{*seat.exploration} : std::nullopt};
 }
 
 }  // namespace kith

@@ -100,7 +100,11 @@ template <typename T>
 // --- writing ---------------------------------------------------------------------------------------------------------
 
 template <typename T>
-[[nodiscard]] Json written(const T& value);
+[[nodiscard]] Json written(const T& value) {
+  return value;
+}
+template <HasMembers T>
+[[nodiscard]] Json written(const T& object);
 template <typename T>
 [[nodiscard]] Json written(const std::optional<T>& value) {
   return value ? written(*value) : Json{};
@@ -111,19 +115,36 @@ template <typename T>
   for (const T& value : values) list.push_back(written(value));
   return list;
 }
+template <typename T>
+[[nodiscard]] bool is_set(const std::optional<T>& value) {
+  return value.has_value();
+}
+template <typename T>
+[[nodiscard]] bool is_set(const std::vector<T>& values) {
+  return !values.empty();
+}
+template <typename T>
+[[nodiscard]] bool is_set(const T& value) {
+  return value != T{};
+}
 template <HasMembers T>
-[[nodiscard]] Json written(const T& object) {
+[[nodiscard]] bool is_set(const T&) {
+  return true;
+}
+
+template <HasMembers T>
+Json written(const T& object) {
   Json json = Json::object();
   for_each_member(object, [&](const auto& member, const auto& value) {
     if (member.asked && !member.asked->is_stored) return;
-    if (member.may_miss && value == std::remove_cvref_t<decltype(value)>{}) return;
-    json[std::string{member.name}] = written(value);
+    if (member.may_miss && !is_set(value)) return;
+    auto one = written(value);
+    if (!member.name.empty()) {
+      json[std::string{member.name}] = std::move(one);
+    } else if (!one.is_null()) {
+      json.update(one);
+    }
   });
   return json;
 }
-template <typename T>
-Json written(const T& value) {
-  return value;
-}
-
 }  // namespace kith

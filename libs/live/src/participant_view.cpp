@@ -2,10 +2,10 @@
 
 #include "exploration.hpp"
 #include "kith/explain/board_json.hpp"
-#include "kith/explain/curriculum_json.hpp"
 #include "kith/explain/examination.hpp"
 #include "kith/explain/runs.hpp"
 #include "live_texts.hpp"
+#include "message_json.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"
 
@@ -26,29 +26,74 @@ std::string end_text(const LiveSeat& seat, const std::string& group_text) {
   return group_text;
 }
 
+// As it stands in a query of a link.
+std::string percent_encoded(const std::string& text) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string encoded;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                       c == '_' || c == '.' || c == '~';
+    if (plain) {
+      encoded += c;
+    } else {
+      encoded += '%';
+      encoded += kDigits[byte >> 4u];
+      encoded += kDigits[byte & 15u];
+    }
+  }
+  return encoded;
+}
+
+// The redirect of the study with the code and the query parameters filled in; empty without one.
+std::string redirect(const LiveStudy& study, const std::string& code, const Json& query) {
+  auto link = study.group().completion.redirect;
+  const auto fill_in = [&](const std::string& name, const std::string& value) {
+    const auto mark = "{" + name + "}";
+    for (auto at = link.find(mark); at != std::string::npos; at = link.find(mark, at + value.size())) {
+      link.replace(at, mark.size(), value);
+    }
+  };
+  fill_in("code", percent_encoded(code));
+  for (const auto& name : study.group().collect_query) {
+    const bool is_there = query.is_object() && query.contains(name) && query[name].is_string();
+    fill_in(name, is_there ? percent_encoded(query[name].get<std::string>()) : std::string{});
+  }
+  return link;
+}
+
+view::End end_of(const LiveStudy& study, const std::string& reason, const std::string& text, const std::string& code,
+                 const Json& query) {
+  return {reason, text, code, code.empty() ? std::string{} : redirect(study, code, query)};
+}
+
+// What is the same for everybody.
+view::Participant empty_page(const LiveStudy& study, std::string stage, std::int64_t now_us) {
+  const auto& group = study.group();
+  view::Participant page{.stage = std::move(stage), .lang = study.language.code, .dir = study.language.direction};
+  page.study = {group.title, group.story, group.goal};
+  if (const auto& update = study.update) page.study.update = {update->text, update->now, update->still, update->news};
+  page.server_ms = in_ms(now_us);
+  return page;
+}
+
 class ParticipantPage {
  public:
   ParticipantPage(const RoomParts& room, std::size_t seat, std::int64_t now_us)
       : room_{room}, state_{room.state}, seat_{room.state.seats[seat]}, number_{seat}, now_us_{now_us} {}
 
-  [[nodiscard]] Json json() const {
+  [[nodiscard]] view::Participant page() const {
     const auto stage = stage_of_seat(room_, seat_);
-    const auto& study = room_.study;
-    Json view{{"v", 1},
-              {"stage", stage},
-              {"lang", study.language.code},
-              {"dir", study.language.direction},
-              {"study", study_texts_json(study)},
-              {"me", {{"seat", number_ + 1}, {"label", label()}}},
-              {"group", {{"size", size()}, {"active", num_active()}}},
-              {"notices", notices()}};
+    auto page = empty_page(room_.study, stage, now_us_);
+    page.me = {number_ + 1, label()};
+    page.group = {size(), num_active()};
+    page.notices = notices();
     if (is_running(state_) && seat_.status != SeatStatus::kGone && seat_.member) {
-      if (auto waiting = pause(); !waiting.is_null()) view["pause"] = std::move(waiting);
-      view["progress"] = progress();
+      page.pause = pause();
+      page.progress = progress();
     }
-    add_stage(view, stage);
-    view["server_ms"] = in_ms(now_us_);
-    return view;
+    add_stage(page);
+    return page;
   }
 
  private:
@@ -68,20 +113,17 @@ class ParticipantPage {
                                                   [&](const LiveMember& m) { return is_taken(state_, m); }));
   }
 
-  [[nodiscard]] Json notices() const {
-    Json list = Json::array();
+  [[nodiscard]] std::vector<view::Notice> notices() const {
+    std::vector<view::Notice> list;
     for (const auto& notice : state_.notices) {
-      if (notice.seat && *notice.seat != number_) continue;
-      list.push_back({{"text", notice.text}, {"at_ms", in_ms(notice.at_us)}});
+      if (!notice.seat || *notice.seat == number_) list.push_back({notice.text, in_ms(notice.at_us)});
     }
     return list;
   }
 
   // The group stands still for the facilitator, or for nobody but people who are away.
-  [[nodiscard]] Json pause() const {
-    if (state_.paused_us) {
-      return {{"why", "facilitator"}, {"since_ms", in_ms(*state_.paused_us)}, {"missing", 0}};
-    }
+  [[nodiscard]] std::optional<view::Pause> pause() const {
+    if (state_.paused_us) return view::Pause{.why = "facilitator", .since_ms = in_ms(*state_.paused_us)};
     if (room_.study.group().dropout.policy == DropoutPolicy::kContinueNow) return {};
     std::size_t missing = 0;
     std::int64_t since = 0;
@@ -92,24 +134,24 @@ class ParticipantPage {
     }
     if (missing == 0) return {};
     const auto until = since + room_.study.group().dropout.grace_s * kSecond;
-    return {{"why", "someone-away"}, {"since_ms", in_ms(since)}, {"until_ms", in_ms(until)}, {"missing", missing}};
+    return view::Pause{"someone-away", in_ms(since), in_ms(until), missing};
   }
 
   // Of the parts there are and the rounds so far: nothing about what anybody believes.
-  [[nodiscard]] Json progress() const {
+  [[nodiscard]] view::Progress progress() const {
     const auto components = state_.session->components();
     const auto over = std::count_if(components.begin(), components.end(),
                                     [](ComponentStatus status) { return status != ComponentStatus::kOpen; });
     const auto rounds = state_.session->periods();
     const bool between = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
     // While feedback is read the next lesson may be there already: it must not show.
-    return {
-        {"part", part(over, components.size())},
-        {"round", rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u)},
-        {"most", state_.session->options().max_periods},
-        {"parts", components.size()},
-        {"done",
-         components.empty() ? 0.0 : static_cast<double>(shown_over(over)) / static_cast<double>(components.size())}};
+    return {.part = part(over, components.size()),
+            .round = rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u),
+            .most = state_.session->options().max_periods,
+            .parts = components.size(),
+            .done = components.empty()
+                        ? 0.0
+                        : static_cast<double>(shown_over(over)) / static_cast<double>(components.size())};
   }
   // That of the lesson that is being taught. Feedback belongs to it, too, also if the part is finished now.
   [[nodiscard]] std::size_t part(std::ptrdiff_t over, std::size_t parts) const {
@@ -127,61 +169,54 @@ class ParticipantPage {
                          [](ComponentStatus status) { return status != ComponentStatus::kOpen; });
   }
 
-  void add_stage(Json& view, const std::string& stage) const {
+  void add_stage(view::Participant& page) const {
+    const auto& stage = page.stage;
+    const auto& study = room_.study;
     if (stage == "consent") {
-      view["consent"] = {{"version", room_.study.group().consent_version},
-                         {"paragraphs", room_.study.group().consent_text},
-                         {"stores", stored_json(room_.study.group())}};
+      page.consent = {study.group().consent_version, study.group().consent_text, stored_json(study.group())};
     } else if (stage == "check") {
-      view["check"] = {{"board", live_board(room_.study, room_.study.sandbox)},
-                       {"world", world_key(room_.study, room_.study.atlas->id(room_.study.sandbox).mdp)},
-                       {"start", start_number(room_.study.sandbox)},
-                       {"parts", room_.study.atlas->knowledge_components().size()},
-                       {"most", room_.study.spec.teaching.max_periods},
-                       {"ask_name", room_.study.group().ask_name}};
+      page.check = check();
     } else if (stage == "screening") {
-      view["predict"] =
-          task(room_.study.screening[seat_.screened.size()], seat_.screened.size(), room_.study.screening.size(), {});
+      page.predict = task(study.screening[seat_.screened.size()], seat_.screened.size(), study.screening.size(), {});
     } else if (stage == kExamPage) {
-      view["predict"] = task(*seat_.examined, seat_.exam.size(), Examination::kMostBoards, {});
+      page.predict = task(*seat_.examined, seat_.exam.size(), Examination::kMostBoards, {});
     } else if (stage == "lobby") {
-      view["lobby"] = lobby();
+      page.lobby = lobby();
     } else if (stage == "wait") {
-      view["wait"] = wait();
+      page.wait = wait();
     } else if (stage == "debrief") {
-      view["debrief"] = debrief();
+      page.debrief = debrief();
     } else if (is_running(state_) && stage == rules_of(state_.phase).word) {
-      add_phase(view);
+      add_phase(page);
     } else if (stage == "questions") {
-      view["questions"] = {{"items", questions()}};
+      page.questions = {questions()};
     } else {
-      view["end"] = end_json(room_.study, seat_.why, end_text(seat_, state_.end_text),
-                             seat_.gets_code ? code() : std::string{}, seat_.query);
+      page.end = end_of(study, seat_.why, end_text(seat_, state_.end_text), seat_.gets_code ? code() : "", seat_.query);
     }
     const bool may_explore = stage == "feedback" || stage == "debrief";
-    if (may_explore && room_.study.group().screens.explore && can_explore(room_.study.atlas->domain())) {
-      view["explore"] = explore_json(room_, seat_);
+    if (may_explore && study.group().screens.explore && can_explore(study.atlas->domain())) {
+      page.explore = explore_view(room_, seat_);
     }
-    if (state_.deadline_us && stage == rules_of(state_.phase).word) view["limit_ms"] = in_ms(*state_.deadline_us);
+    if (state_.deadline_us && stage == rules_of(state_.phase).word) page.limit_ms = in_ms(*state_.deadline_us);
   }
 
   // What there is to do for the group.
-  void add_phase(Json& view) const {
+  void add_phase(view::Participant& page) const {
     switch (state_.phase) {
       case RoomPhase::kWatching:
-        view["watch"] = watch();
+        page.watch = watch();
         return;
       case RoomPhase::kTesting: {
         const auto& tests = state_.session->lesson().tests;
         const auto test = current_test(seat_);
-        view["predict"] = task(tests[test].demo, test, tests.size(), seat_.draft);
+        page.predict = task(tests[test].demo, test, tests.size(), seat_.draft);
         return;
       }
       case RoomPhase::kDiscussing:
-        view["discuss"] = discussion();
+        page.discuss = discussion();
         return;
       case RoomPhase::kFeedback:
-        view["feedback"] = feedback_json(room_, seat_);
+        page.feedback = feedback_view(room_, seat_);
         return;
       case RoomPhase::kLobby:  // there is nothing to do, or not for the group
       case RoomPhase::kTeaching:
@@ -196,69 +231,72 @@ class ParticipantPage {
     return world_state(room_.study, id.mdp, id.start).value_or(0);
   }
 
-  [[nodiscard]] Json task(StartIndex demo, std::size_t index, std::size_t of,
-                          const std::vector<std::size_t>& draft) const {
-    return {{"index", index},
-            {"of", of},
-            {"board", live_board(room_.study, demo)},
-            {"world", world_key(room_.study, room_.study.atlas->id(demo).mdp)},
-            {"start", start_number(demo)},
-            {"draft", draft}};
+  [[nodiscard]] std::string world_of(StartIndex demo) const {
+    return world_key(room_.study, room_.study.atlas->id(demo).mdp);
+  }
+
+  [[nodiscard]] view::Check check() const {
+    const auto& study = room_.study;
+    return {.board = live_board(study, study.sandbox),
+            .world = world_of(study.sandbox),
+            .start = start_number(study.sandbox),
+            .parts = study.atlas->knowledge_components().size(),
+            .most = study.spec.teaching.max_periods,
+            .ask_name = study.group().ask_name};
+  }
+
+  [[nodiscard]] view::Task task(StartIndex demo, std::size_t index, std::size_t of,
+                                const std::vector<std::size_t>& draft) const {
+    return {index, of, live_board(room_.study, demo), world_of(demo), start_number(demo), draft};
   }
 
   // What the group predicted, without names; which one is the own, and how many predicted each.
-  [[nodiscard]] Json discussion() const {
+  [[nodiscard]] view::Discussion discussion() const {
     const auto test = current_choice(seat_);
     const auto demo = state_.session->lesson().tests[test].demo;
     const auto& domain = room_.study.atlas->domain();
     const auto own = own_entry(state_, test, *seat_.member);
-    Json predictions = Json::array();
+    std::vector<view::Prediction> predictions;
     for (std::size_t e = 0; e < state_.board[test].size(); ++e) {
       const auto& entry = state_.board[test][e];
       const auto path = judged_path(*room_.study.atlas, demo, entry.path.actions, entry.path.for_ever).path;
-      auto prediction = path_json(domain, room_.study.atlas->id(demo).mdp, path);
-      prediction["own"] = own == e;
-      prediction["n"] = entry.members.size();
-      predictions.push_back(std::move(prediction));
+      predictions.push_back({path_json(domain, room_.study.atlas->id(demo).mdp, path), own == e, entry.members.size()});
     }
-    return {{"index", test},
-            {"of", state_.board.size()},
-            {"board", live_board(room_.study, demo)},
-            {"predictions", predictions}};
+    return {test, state_.board.size(), live_board(room_.study, demo), std::move(predictions)};
   }
 
-  [[nodiscard]] Json watch() const {
+  [[nodiscard]] view::Watch watch() const {
     const auto& demonstrations = state_.session->lesson().demonstrations;
     const auto demo = demonstrations[seat_.watched].demo;
-    Json watch{{"index", seat_.watched}, {"of", demonstrations.size()}, {"board", live_board(room_.study, demo)}};
-    watch.update(robot_path(room_.study, demo));
-    if (room_.study.group().screens.predict_first) {
-      watch["world"] = world_key(room_.study, room_.study.atlas->id(demo).mdp);
-      watch["state"] = start_number(demo);
-    }
-    if (auto runs = robot_runs(room_.study, demo); !runs.is_null()) watch["runs"] = std::move(runs);
+    view::Watch watch{.index = seat_.watched,
+                      .of = demonstrations.size(),
+                      .board = live_board(room_.study, demo),
+                      .path = robot_path(room_.study, demo),
+                      .runs = robot_runs(room_.study, demo)};
+    if (!room_.study.group().screens.predict_first) return watch;
+    watch.world = world_of(demo);
+    watch.state = start_number(demo);
     return watch;
   }
 
   // How many others wait is shown, but not for whom they wait: that would tell people how able they are.
-  [[nodiscard]] Json waiting_list() const {
+  [[nodiscard]] view::Lobby waiting_list() const {
     const auto waiting =
         static_cast<std::size_t>(std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
           return seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here;
         }));
-    auto json = lobby_of(std::min(waiting, size() - 1), size());
+    auto lobby = lobby_of(std::min(waiting, size() - 1), size());
     const auto lobby_s = room_.study.group().time.lobby_s;
-    if (lobby_s > 0 && room_.study.group().auto_start) json["until_ms"] = in_ms(seat_.ready_us + lobby_s * kSecond);
-    return json;
+    if (lobby_s > 0 && room_.study.group().auto_start) lobby.until_ms = in_ms(seat_.ready_us + lobby_s * kSecond);
+    return lobby;
   }
 
-  [[nodiscard]] Json lobby_of(std::size_t present, std::size_t size) const {
+  [[nodiscard]] view::Lobby lobby_of(std::size_t present, std::size_t size) const {
     const auto leave_us = seat_.ready_us + room_.study.group().time.leave_after_s * kSecond;
-    return {
-        {"present", present}, {"size", size}, {"since_ms", in_ms(seat_.ready_us)}, {"leave_after_ms", in_ms(leave_us)}};
+    return {.present = present, .size = size, .since_ms = in_ms(seat_.ready_us), .leave_after_ms = in_ms(leave_us)};
   }
 
-  [[nodiscard]] Json lobby() const {
+  [[nodiscard]] view::Lobby lobby() const {
     if (room_.setup.is_waiting_list) return waiting_list();
     const auto present = std::count_if(state_.members.begin(), state_.members.end(), [&](const LiveMember& member) {
       if (!member.seat) return false;
@@ -266,15 +304,15 @@ class ParticipantPage {
       return !seat.is_person ||
              (seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here);
     });
-    auto json = lobby_of(static_cast<std::size_t>(present), state_.members.size());
+    auto lobby = lobby_of(static_cast<std::size_t>(present), state_.members.size());
     const auto lobby_s = room_.study.group().time.lobby_s;
     if (state_.phase == RoomPhase::kLobby && state_.lobby_us && lobby_s > 0 && room_.study.group().auto_start) {
-      json["until_ms"] = in_ms(*state_.lobby_us + lobby_s * kSecond);
+      lobby.until_ms = in_ms(*state_.lobby_us + lobby_s * kSecond);
     }
-    return json;
+    return lobby;
   }
 
-  [[nodiscard]] Json wait() const {
+  [[nodiscard]] view::Wait wait() const {
     std::size_t missing = 0;
     for (const auto& seat : state_.seats) {
       if (&seat != &seat_ && gates(seat) && !has_done_phase(state_, seat)) ++missing;
@@ -283,18 +321,13 @@ class ParticipantPage {
     const bool has_begun = state_.phase != RoomPhase::kTeaching || num_periods(state_) > 0;
     if (!seat_.has_taken_part && has_begun) what = "joining";
     if (seat_.has_taken_part && !seat_.in_period && state_.phase != RoomPhase::kTeaching) what = "rejoining";
-    return {{"for", what}, {"missing", missing}, {"since_ms", in_ms(std::max(seat_.since_us, state_.phase_us))}};
+    return {std::string{what}, missing, in_ms(std::max(seat_.since_us, state_.phase_us))};
   }
 
-  [[nodiscard]] Json questions() const {
-    Json items = Json::array();
-    for (const auto& question : room_.study.group().questions) {
-      Json item{{"id", question.id}, {"kind", std::string{name_of(question.kind)}}, {"text", question.text}};
-      if (!question.options.empty()) item["options"] = question.options;
-      if (!question.low.empty()) item["low"] = question.low;
-      if (!question.high.empty()) item["high"] = question.high;
-      item["required"] = question.required;
-      items.push_back(std::move(item));
+  [[nodiscard]] std::vector<view::Question> questions() const {
+    std::vector<view::Question> items;
+    for (const auto& one : room_.study.group().questions) {
+      items.push_back({one.id, std::string{name_of(one.kind)}, one.text, one.options, one.low, one.high, one.required});
     }
     return items;
   }
@@ -303,15 +336,15 @@ class ParticipantPage {
     return completion_code(room_.study, room_.setup.salt, room_.setup.id, number_ + 1);
   }
 
-  [[nodiscard]] Json debrief() const {
-    const auto robot = robot_in_words(room_);
-    Json json{{"summary", robot.taught}, {"not_reached", robot.not_reached},
-              {"code", code()},          {"rounds", num_periods(state_)},
-              {"right", seat_.right},    {"tests", seat_.tests}};
-    if (auto redirect = redirect_json(room_.study, code(), seat_.query); !redirect.is_null()) {
-      json["redirect"] = std::move(redirect);
-    }
-    return json;
+  [[nodiscard]] view::Debrief debrief() const {
+    auto robot = robot_in_words(room_);
+    return {.summary = std::move(robot.taught),
+            .not_reached = std::move(robot.not_reached),
+            .code = code(),
+            .rounds = num_periods(state_),
+            .right = seat_.right,
+            .tests = seat_.tests,
+            .redirect = redirect(room_.study, code(), seat_.query)};
   }
 
   const RoomParts& room_;
@@ -320,25 +353,6 @@ class ParticipantPage {
   std::size_t number_;
   std::int64_t now_us_;
 };
-
-// As it stands in a query of a link.
-std::string percent_encoded(const std::string& text) {
-  constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string encoded;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                       c == '_' || c == '.' || c == '~';
-    if (plain) {
-      encoded += c;
-    } else {
-      encoded += '%';
-      encoded += kDigits[byte >> 4u];
-      encoded += kDigits[byte & 15u];
-    }
-  }
-  return encoded;
-}
 
 }  // namespace
 
@@ -366,55 +380,17 @@ Json robot_runs(const LiveStudy& study, StartIndex demo) {
   return runs_json(study.atlas->domain(), world, several_runs(*study.atlas, demo, kRuns, random));
 }
 
-Json study_texts_json(const LiveStudy& study) {
-  Json texts{{"title", study.group().title}, {"story", study.group().story}, {"goal", study.group().goal}};
-  if (study.update) texts["update"] = update_json(*study.update);
-  return texts;
-}
-
-Json redirect_json(const LiveStudy& study, const std::string& code, const Json& query) {
-  auto link = study.group().completion.redirect;
-  if (link.empty()) return {};
-  const auto fill_in = [&](const std::string& name, const std::string& value) {
-    const auto mark = "{" + name + "}";
-    for (auto at = link.find(mark); at != std::string::npos; at = link.find(mark, at + value.size())) {
-      link.replace(at, mark.size(), value);
-    }
-  };
-  fill_in("code", percent_encoded(code));
-  for (const auto& name : study.group().collect_query) {
-    const bool is_there = query.is_object() && query.contains(name) && query[name].is_string();
-    fill_in(name, is_there ? percent_encoded(query[name].get<std::string>()) : std::string{});
-  }
-  return link;
-}
-
-Json end_json(const LiveStudy& study, const std::string& reason, const std::string& text, const std::string& code,
-              const Json& query) {
-  Json json{{"reason", reason}, {"text", text}};
-  if (code.empty()) return json;
-  json["code"] = code;
-  if (auto redirect = redirect_json(study, code, query); !redirect.is_null()) json["redirect"] = std::move(redirect);
-  return json;
-}
-
 Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us) {
-  return ParticipantPage{room, seat, now_us}.json();
+  return written(ParticipantPage{room, seat, now_us}.page());
 }
 
 Json full_view(const LiveStudy& study, const std::string& code, const Json& query, std::int64_t now_us) {
   LiveSeat nobody;
   nobody.last_page = "full";
-  return {{"v", 1},
-          {"stage", "full"},
-          {"lang", study.language.code},
-          {"dir", study.language.direction},
-          {"study", study_texts_json(study)},
-          {"me", {{"seat", 0}, {"label", "Learner"}}},
-          {"group", {{"size", 0}, {"active", 0}}},
-          {"notices", Json::array()},
-          {"end", end_json(study, "full", end_text(nobody, {}), study.group().completion.pay_full ? code : "", query)},
-          {"server_ms", in_ms(now_us)}};
+  auto page = empty_page(study, "full", now_us);
+  page.me.label = "Learner";
+  page.end = end_of(study, "full", end_text(nobody, {}), study.group().completion.pay_full ? code : "", query);
+  return written(page);
 }
 
 }  // namespace kith

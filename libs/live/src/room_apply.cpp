@@ -162,7 +162,7 @@ class RoomChange {
         person.explored.push_back(std::move(half_space));
       }
     }
-    person.exploration = std::make_shared<const Json>(std::move(found.shown));
+    person.exploration = std::make_shared<const view::Explored>(std::move(found.shown));
     ++person.explorations;
   }
   void happen(const Examined& e) {

@@ -13,6 +13,7 @@
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/teaching/observed_period.hpp"
+#include "views.hpp"
 
 namespace kith {
 
@@ -75,8 +76,8 @@ struct LiveSeat {
   bool has_answered = false;                    ///< All tests, or the time is over.
   std::vector<std::size_t> draft;               ///< Of the first test without a path.
   bool has_continued = false;
-  std::vector<std::optional<BoardChoice>> choices;  ///< Per test; none: undecided. Empty before a discussion.
-  std::shared_ptr<const Json> exploration;  ///< What was explored last, see Exploration::shown; null: nothing yet.
+  std::vector<std::optional<BoardChoice>> choices;    ///< Per test; none: undecided. Empty before a discussion.
+  std::shared_ptr<const view::Explored> exploration;  ///< What was explored last; null: nothing yet.
 
   std::vector<HalfSpace> explored;  ///< What all explorations conveyed, each once.
   std::size_t explorations = 0;

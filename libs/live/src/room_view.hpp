@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "room_state.hpp"
+#include "views.hpp"
 
 namespace kith {
 
@@ -22,19 +23,10 @@ namespace kith {
 
 /// ParticipantView.
 [[nodiscard]] Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us);
-/// Its parts `debrief` and `end` without what belongs to one group.
-[[nodiscard]] Json end_json(const LiveStudy& study, const std::string& reason, const std::string& text,
-                            const std::string& code, const Json& query);
-/// The redirect of the study with the code and the query parameters filled in; null without one.
-[[nodiscard]] Json redirect_json(const LiveStudy& study, const std::string& code, const Json& query);
-/// What everybody sees of the study: title, story and goal.
-[[nodiscard]] Json study_texts_json(const LiveStudy& study);
-
 /// `feedback` of a participant.
-[[nodiscard]] Json feedback_json(const RoomParts& room, const LiveSeat& seat);
-/// `explore` of a participant: {first, last, put, brackets}, what can be explored and what was explored last; see
-/// Exploration. @pre can_explore() the domain.
-[[nodiscard]] Json explore_json(const RoomParts& room, const LiveSeat& seat);
+[[nodiscard]] view::Feedback feedback_view(const RoomParts& room, const LiveSeat& seat);
+/// `explore` of a participant: what can be explored and what was explored last. @pre can_explore() the domain.
+[[nodiscard]] view::Explore explore_view(const RoomParts& room, const LiveSeat& seat);
 /// Why the robot's path is better than another one, in words: "Your path makes the robot take 2 more steps than
 /// needed."
 [[nodiscard]] std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVector& robot_counts,

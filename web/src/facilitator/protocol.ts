@@ -1,6 +1,7 @@
 // What the server sends to facilitators and observers, and what it takes from facilitators.
 import type { Frame, MapDomain, Path, Place } from '../shared/board/types';
 import type { Stores } from '../shared/stores';
+import type { RoomCommands } from './room';
 
 export type { Frame };
 export type Role = 'facilitator' | 'observer';
@@ -201,16 +202,7 @@ export interface FacilitatorView {
   integrity: Integrity;
 }
 
-export interface Commands {
-  start: object;
-  pause: object;
-  resume: object;
-  extend: { seconds: number };
-  message: { text: string; seat?: number };
-  readmit: { seat: number };
-  simulate: { seat: number; type: string };
-  strategy: { name: string };
-  end: object;
+export interface Commands extends RoomCommands {
   'room-make': { strategy?: string; seats: string[]; count: number };
   'room-select': object;
   'link-revoke': { token: string };

@@ -110,8 +110,8 @@ function useLanguage(lang: string | undefined): void {
 
 // Screens of the same kind are new ones if they show something else.
 function screenKey(view: ParticipantView): string {
-  const { stage, progress, watch, predict, discuss, screening, wait } = view;
-  const index = { watch: watch?.index, predict: predict?.index, discuss: discuss?.index, screening: (screening ?? predict)?.index, exam: predict?.index, wait: wait?.for }[stage as 'watch'];
+  const { stage, progress, watch, predict, discuss, wait } = view;
+  const index = { watch: watch?.index, predict: predict?.index, discuss: discuss?.index, screening: predict?.index, exam: predict?.index, wait: wait?.for }[stage as 'watch'];
   return [stage, progress?.part, progress?.round, index].join('.');
 }
 
@@ -124,15 +124,14 @@ function screenOf(props: ScreenProps): { key: string; screen: JSX.Element } {
 
 function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
   const { view } = props;
-  const { consent, check, screening, lobby, watch, predict, discuss, wait, feedback, questions, debrief } = view;
-  const task = screening ?? predict;
+  const { consent, check, lobby, watch, predict, discuss, wait, feedback, questions, debrief } = view;
   switch (view.stage) {
     case 'consent':
       return consent ? <Consent {...props} consent={consent} /> : null;
     case 'check':
       return check ? <Check {...props} check={check} /> : null;
     case 'screening':
-      return task ? <Predict {...props} task={task} kind="screening" /> : null;
+      return predict ? <Predict {...props} task={predict} kind="screening" /> : null;
     case 'lobby':
       return lobby ? <Lobby {...props} lobby={lobby} /> : null;
     case 'watch':

@@ -20,7 +20,7 @@ interface Props {
 
 export function Shell({ connection, snapshot, view, children }: Props): JSX.Element {
   const { check, watch, predict, discuss, feedback } = view;
-  const board = (check ?? watch ?? predict ?? discuss ?? view.screening ?? feedback?.tests[0] ?? (view.debrief && remembered().first))?.board;
+  const board = (check ?? watch ?? predict ?? discuss ?? feedback?.tests[0] ?? (view.debrief && remembered().first))?.board;
   return (
     <>
       {board && <Patterns surfaces={board.domain.surfaces ?? []} />}

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "kith/explain/json.hpp"
@@ -28,21 +29,43 @@ struct Limits {
   std::string_view type{};                                        ///< Of JSON, in TypeScript.
 };
 
-/// A member of an event or of a view by its name in JSON; with '?' one that is left out unless it is set.
+/// The type of JSON in TypeScript, where nothing else is said of it.
+struct As {
+  std::string_view type;
+};
+
+/// A member of an event or of a view by its name in JSON. Without a name, its own members stand in its place.
 template <typename Owner, typename T>
 struct Member {
-  constexpr Member(std::string_view name_in_json, T Owner::*member)
-      : name{name_in_json.substr(0, name_in_json.find('?'))}, may_miss{name != name_in_json}, at{member} {}
-  constexpr Member(std::string_view name_in_json, T Owner::*member, const Limits& limits)
-      : Member{name_in_json, member} {
-    asked = limits;
-  }
-
   std::string_view name;
-  bool may_miss;
-  T Owner::*at;
+  bool may_miss = false;  ///< Left out unless it is set.
+  T Owner::*at = nullptr;
+  std::string_view type{};        ///< In TypeScript; empty: that of T.
   std::optional<Limits> asked{};  ///< What commands may say of it; nothing: it is not asked for.
 };
+
+/// A tuple of members: of each its name, with '?' if it is left out unless it is set, a pointer to it and, if need be,
+/// an As or its Limits.
+constexpr std::tuple<> members() { return {}; }
+template <typename Owner, typename T, typename... Rest>
+constexpr auto members(std::string_view name, T Owner::*at, const Rest&... rest) {
+  const auto end = name.find('?');
+  const Member<Owner, T> member{name.substr(0, end), end != std::string_view::npos, at};
+  if constexpr (sizeof...(Rest) > 0) {
+    return [&]<typename Next>(const Next& next, const auto&... others) {
+      auto with = member;
+      if constexpr (std::is_same_v<Next, Limits>) with.asked = next, with.type = next.type;
+      if constexpr (std::is_same_v<Next, As>) with.type = next.type;
+      if constexpr (std::is_same_v<Next, Limits> || std::is_same_v<Next, As>) {
+        return std::tuple_cat(std::tuple{with}, members(others...));
+      } else {
+        return std::tuple_cat(std::tuple{with}, members(next, others...));
+      }
+    }(rest...);
+  } else {
+    return std::tuple{member};
+  }
+}
 
 /// Calls visit(member, value) for every member of an event or view.
 template <typename Owner, typename Visit>

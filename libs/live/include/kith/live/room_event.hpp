@@ -79,10 +79,10 @@ struct Joined {
   static constexpr RoomEventKind kKind{"joined", "join", kServer, kLogged};
   std::size_t seat = 0;
   std::optional<std::size_t> member{};
-  static constexpr std::tuple kMembers{
-      Member{"seat", &Joined::seat,
-             Limits{.least = 1, .most = 1000, .may_miss = true, .text = "'seat' is not a number of a seat"}},
-      Member{"member", &Joined::member}};
+  static constexpr auto kMembers =
+      members("seat", &Joined::seat,
+              Limits{.least = 1, .most = 1000, .may_miss = true, .text = "'seat' is not a number of a seat"}, "member",
+              &Joined::member);
 };
 
 /// Somebody agreed to that version of the text; what does not `accept` it is Declined.
@@ -91,9 +91,8 @@ struct Consented {
   std::string version;
   Json query;
   bool accept = true;
-  static constexpr std::tuple kMembers{Member{"accept", &Consented::accept, Limits{.is_stored = false}},
-                                       Member{"version", &Consented::version, kVersion},
-                                       Member{"query", &Consented::query, kMayMiss}};
+  static constexpr auto kMembers = members("accept", &Consented::accept, Limits{.is_stored = false}, "version",
+                                           &Consented::version, kVersion, "query", &Consented::query, kMayMiss);
 };
 
 /// Whoever declines is gone, and the seat is free again.
@@ -113,8 +112,8 @@ struct Named {
   static constexpr RoomEventKind kKind{
       "named", "name", kSeat, kUnlogged, false, true, {PersonalMember{"name", PersonalMember::What::kName}}};
   std::string name;
-  static constexpr std::tuple kMembers{
-      Member{"name", &Named::name, Limits{.longest = kMostNameBytes, .is_one_line = true}}};
+  static constexpr auto kMembers =
+      members("name", &Named::name, Limits{.longest = kMostNameBytes, .is_one_line = true});
 };
 
 /// An answer to a test of the screening; it may never end.
@@ -125,10 +124,9 @@ struct Screened {
   bool right = false;
   std::int64_t ms = 0;
   bool for_ever = false;
-  static constexpr std::tuple kMembers{Member{"test", &Screened::test, kFew},
-                                       Member{"actions", &Screened::actions, kFew}, Member{"right", &Screened::right},
-                                       Member{"ms", &Screened::ms, kTime},
-                                       Member{"for_ever?", &Screened::for_ever, Limits{}}};
+  static constexpr auto kMembers =
+      members("test", &Screened::test, kFew, "actions", &Screened::actions, kFew, "right", &Screened::right, "ms",
+              &Screened::ms, kTime, "for_ever?", &Screened::for_ever, Limits{});
 };
 
 /// An answer to board `test` of the exam, which begins in `start` (a StartIndex); it may never end.
@@ -139,10 +137,9 @@ struct Examined {
   bool right = false;
   std::int64_t ms = 0;
   bool for_ever = false;
-  static constexpr std::tuple kMembers{
-      Member{"test", &Examined::test, kFew},       Member{"start", &Examined::start},
-      Member{"actions", &Examined::actions, kFew}, Member{"right", &Examined::right},
-      Member{"ms", &Examined::ms, kTime},          Member{"for_ever?", &Examined::for_ever, Limits{}}};
+  static constexpr auto kMembers =
+      members("test", &Examined::test, kFew, "start", &Examined::start, "actions", &Examined::actions, kFew, "right",
+              &Examined::right, "ms", &Examined::ms, kTime, "for_ever?", &Examined::for_ever, Limits{});
 };
 
 /// The lessons begin, by "server" or "facilitator"; whether stand-ins fill the places that are free.
@@ -151,8 +148,8 @@ struct Started {
   std::string by;
   bool fill = false;
   std::optional<std::string> reason{};
-  static constexpr std::tuple kMembers{Member{"by", &Started::by}, Member{"fill", &Started::fill},
-                                       Member{"reason?", &Started::reason, kReason}};
+  static constexpr auto kMembers =
+      members("by", &Started::by, "fill", &Started::fill, "reason?", &Started::reason, kReason);
 };
 
 /// The teacher chose the next lesson, or has no further one.
@@ -161,16 +158,15 @@ struct LessonChosen {
   std::string key, digest;
   std::size_t period = 0;
   bool finished = false;
-  static constexpr std::tuple kMembers{Member{"key", &LessonChosen::key}, Member{"digest", &LessonChosen::digest},
-                                       Member{"period", &LessonChosen::period},
-                                       Member{"finished", &LessonChosen::finished}};
+  static constexpr auto kMembers = members("key", &LessonChosen::key, "digest", &LessonChosen::digest, "period",
+                                           &LessonChosen::period, "finished", &LessonChosen::finished);
 };
 
 /// Somebody watched a demonstration.
 struct Watched {
   static constexpr RoomEventKind kKind{"watched", "watched", kSeat};
   std::size_t demo = 0;
-  static constexpr std::tuple kMembers{Member{"demo", &Watched::demo, kFew}};
+  static constexpr auto kMembers = members("demo", &Watched::demo, kFew);
 };
 
 /// What somebody has of a path so far.
@@ -178,8 +174,7 @@ struct Drafted {
   static constexpr RoomEventKind kKind{"draft", "draft", kSeat, kUnlogged, false};
   std::size_t test = 0;
   std::vector<std::size_t> actions;
-  static constexpr std::tuple kMembers{Member{"test", &Drafted::test, kFew},
-                                       Member{"actions", &Drafted::actions, kFew}};
+  static constexpr auto kMembers = members("test", &Drafted::test, kFew, "actions", &Drafted::actions, kFew);
 };
 
 /// An answer to a test, with what was pressed and when; it may never end. `erased`, of somebody who was withdrawn, is
@@ -192,13 +187,10 @@ struct Answered {
   std::int64_t ms = 0;
   bool for_ever = false;
   Json erased{};
-  static constexpr std::tuple kMembers{
-      Member{"test", &Answered::test, kFew},
-      Member{"actions", &Answered::actions, kFew},
-      Member{"keys", &Answered::keys, Limits{.may_miss = true, .fits = are_keys, .type = "KeyPress[]"}},
-      Member{"ms", &Answered::ms, kTime},
-      Member{"for_ever?", &Answered::for_ever, Limits{}},
-      Member{"erased?", &Answered::erased}};
+  static constexpr auto kMembers =
+      members("test", &Answered::test, kFew, "actions", &Answered::actions, kFew, "keys", &Answered::keys,
+              Limits{.may_miss = true, .fits = are_keys, .type = "KeyPress[]"}, "ms", &Answered::ms, kTime, "for_ever?",
+              &Answered::for_ever, Limits{}, "erased?", &Answered::erased);
 };
 
 /// Somebody has seen the answers of the group to a test and keeps the own one, or takes one of the board.
@@ -207,8 +199,8 @@ struct Discussed {
   std::size_t test = 0;
   std::optional<std::size_t> choice{};
   std::int64_t ms = 0;
-  static constexpr std::tuple kMembers{Member{"test", &Discussed::test, kFew},
-                                       Member{"choice", &Discussed::choice, kFew}, Member{"ms", &Discussed::ms, kTime}};
+  static constexpr auto kMembers =
+      members("test", &Discussed::test, kFew, "choice", &Discussed::choice, kFew, "ms", &Discussed::ms, kTime);
 };
 
 /// Somebody has seen the feedback.
@@ -224,9 +216,8 @@ struct Explored {
   Json start;
   std::optional<std::size_t> world;
   std::vector<std::string> map;
-  static constexpr std::tuple kMembers{Member{"start", &Explored::start, Limits{.fits = is_frame, .type = "Frame"}},
-                                       Member{"world?", &Explored::world, Limits{}},
-                                       Member{"map?", &Explored::map, Limits{}}};
+  static constexpr auto kMembers = members("start", &Explored::start, Limits{.fits = is_frame, .type = "Frame"},
+                                           "world?", &Explored::world, Limits{}, "map?", &Explored::map, Limits{});
 };
 
 /// Answers to the questions at the end, by id.
@@ -239,8 +230,8 @@ struct QuestionsAnswered {
                                        true,
                                        {PersonalMember{"answers", PersonalMember::What::kAnswers}}};
   Json answers;
-  static constexpr std::tuple kMembers{Member{"answers", &QuestionsAnswered::answers,
-                                              Limits{.fits = is_object, .type = "Record<string, string | number>"}}};
+  static constexpr auto kMembers = members("answers", &QuestionsAnswered::answers,
+                                           Limits{.fits = is_object, .type = "Record<string, string | number>"});
 };
 
 /// Somebody leaves by their own choice; `by` takes the seat over, a stand-in if it has a type.
@@ -248,21 +239,21 @@ struct Left {
   static constexpr RoomEventKind kKind{"left", "leave", kSeat, kLogged};
   std::optional<std::size_t> by{};
   std::optional<std::string> type{};
-  static constexpr std::tuple kMembers{Member{"by", &Left::by}, Member{"type", &Left::type}};
+  static constexpr auto kMembers = members("by", &Left::by, "type", &Left::type);
 };
 
 /// Somebody is not there.
 struct Away {
   static constexpr RoomEventKind kKind{"away", "away", kServer, kLogged};
   std::size_t seat = 0;
-  static constexpr std::tuple kMembers{Member{"seat", &Away::seat, kPlace}};
+  static constexpr auto kMembers = members("seat", &Away::seat, kPlace);
 };
 
 /// Somebody is there again.
 struct Present {
   static constexpr RoomEventKind kKind{"present", "present", kServer, kLogged};
   std::size_t seat = 0;
-  static constexpr std::tuple kMembers{Member{"seat", &Present::seat, kPlace}};
+  static constexpr auto kMembers = members("seat", &Present::seat, kPlace);
 };
 
 /// The grace period is over; as Left.
@@ -272,8 +263,8 @@ struct Dropped {
   std::string policy;
   std::optional<std::size_t> by{};
   std::optional<std::string> type{};
-  static constexpr std::tuple kMembers{Member{"seat", &Dropped::seat}, Member{"policy", &Dropped::policy},
-                                       Member{"by", &Dropped::by}, Member{"type", &Dropped::type}};
+  static constexpr auto kMembers =
+      members("seat", &Dropped::seat, "policy", &Dropped::policy, "by", &Dropped::by, "type", &Dropped::type);
 };
 
 /// A seat in the lobby is free again.
@@ -281,7 +272,7 @@ struct Released {
   static constexpr RoomEventKind kKind{"released", "", kServer, kLogged};
   std::size_t seat = 0;
   std::string why;
-  static constexpr std::tuple kMembers{Member{"seat", &Released::seat}, Member{"why", &Released::why}};
+  static constexpr auto kMembers = members("seat", &Released::seat, "why", &Released::why);
 };
 
 /// On a waiting list: people have a place in a new room; by member whether it is simulated, and the seat on the list.
@@ -291,11 +282,10 @@ struct Grouped {
   std::vector<bool> simulated;
   std::vector<std::optional<std::size_t>> seats;
   std::string room;
-  static constexpr std::tuple kMembers{
-      Member{"strategy", &Grouped::strategy, kPlanned}, Member{"composition", &Grouped::composition, kPlanned},
-      Member{"simulated", &Grouped::simulated, kPlanned}, Member{"seats", &Grouped::seats, kPlanned},
-      Member{"room", &Grouped::room,
-             Limits{.longest = 100, .reason = "not-now", .text = "No group can be formed at the moment."}}};
+  static constexpr auto kMembers =
+      members("strategy", &Grouped::strategy, kPlanned, "composition", &Grouped::composition, kPlanned, "simulated",
+              &Grouped::simulated, kPlanned, "seats", &Grouped::seats, kPlanned, "room", &Grouped::room,
+              Limits{.longest = 100, .reason = "not-now", .text = "No group can be formed at the moment."});
 };
 
 /// Somebody from the waiting list has the place. `from` is {room, seat} there, the rest what the room has to know of
@@ -310,35 +300,32 @@ struct Seated {
   std::string name;
   std::vector<bool> screened;
   std::int64_t ready_us = 0;
-  static constexpr std::tuple kMembers{Member{"seat", &Seated::seat},
-                                       Member{"member", &Seated::member, kFew},
-                                       Member{"from", &Seated::from, Limits{.fits = is_object}},
-                                       Member{"version", &Seated::version, kVersion},
-                                       Member{"query", &Seated::query, kMayMiss},
-                                       Member{"name", &Seated::name, Limits{.longest = kMostNameBytes}},
-                                       Member{"screened", &Seated::screened, Limits{}},
-                                       Member{"ready_us", &Seated::ready_us, Limits{}}};
+  static constexpr auto kMembers =
+      members("seat", &Seated::seat, "member", &Seated::member, kFew, "from", &Seated::from, Limits{.fits = is_object},
+              "version", &Seated::version, kVersion, "query", &Seated::query, kMayMiss, "name", &Seated::name,
+              Limits{.longest = kMostNameBytes}, "screened", &Seated::screened, Limits{}, "ready_us", &Seated::ready_us,
+              Limits{});
 };
 
 /// A time limit is over: that of a phase, or of the session.
 struct TimeOver {
   static constexpr RoomEventKind kKind{"time", "", kServer, kLogged};
   std::string what;
-  static constexpr std::tuple kMembers{Member{"what", &TimeOver::what}};
+  static constexpr auto kMembers = members("what", &TimeOver::what);
 };
 
 /// Nothing goes on until it is resumed.
 struct Paused {
   static constexpr RoomEventKind kKind{"pause", "pause", kFacilitator};
   std::string reason;
-  static constexpr std::tuple kMembers{Member{"reason", &Paused::reason, kReason}};
+  static constexpr auto kMembers = members("reason", &Paused::reason, kReason);
 };
 
 /// Everything goes on.
 struct Resumed {
   static constexpr RoomEventKind kKind{"resume", "resume", kFacilitator};
   std::string reason;
-  static constexpr std::tuple kMembers{Member{"reason", &Resumed::reason, kReason}};
+  static constexpr auto kMembers = members("reason", &Resumed::reason, kReason);
 };
 
 /// Time limits are later.
@@ -346,10 +333,10 @@ struct Extended {
   static constexpr RoomEventKind kKind{"extend", "extend", kFacilitator, kUnlogged, false};
   std::int64_t seconds = 0;
   std::string reason;
-  static constexpr std::tuple kMembers{
-      Member{"seconds", &Extended::seconds,
-             Limits{.least = 1, .most = 86'400, .text = "'seconds' must be a number from 1 to 86400."}},
-      Member{"reason", &Extended::reason, kReason}};
+  static constexpr auto kMembers =
+      members("seconds", &Extended::seconds,
+              Limits{.least = 1, .most = 86'400, .text = "'seconds' must be a number from 1 to 86400."}, "reason",
+              &Extended::reason, kReason);
 };
 
 /// To a seat, or to everybody.
@@ -364,9 +351,9 @@ struct MessageSent {
   std::string text;
   std::optional<std::size_t> seat{};
   std::string reason;
-  static constexpr std::tuple kMembers{
-      Member{"text", &MessageSent::text, Limits{.longest = 2000, .text = "'text' is missing or too long."}},
-      Member{"seat", &MessageSent::seat, kPlace}, Member{"reason", &MessageSent::reason, kReason}};
+  static constexpr auto kMembers =
+      members("text", &MessageSent::text, Limits{.longest = 2000, .text = "'text' is missing or too long."}, "seat",
+              &MessageSent::seat, kPlace, "reason", &MessageSent::reason, kReason);
 };
 
 /// Somebody has their place again.
@@ -374,8 +361,7 @@ struct Readmitted {
   static constexpr RoomEventKind kKind{"readmit", "readmit", kFacilitator};
   std::size_t seat = 0;
   std::string reason;
-  static constexpr std::tuple kMembers{Member{"seat", &Readmitted::seat, kPlace},
-                                       Member{"reason", &Readmitted::reason, kReason}};
+  static constexpr auto kMembers = members("seat", &Readmitted::seat, kPlace, "reason", &Readmitted::reason, kReason);
 };
 
 /// A stand-in of that type, seat `by`, takes the place.
@@ -385,27 +371,26 @@ struct Simulated {
   std::string type;
   std::size_t by = 0;
   std::string reason;
-  static constexpr std::tuple kMembers{
-      Member{"seat", &Simulated::seat, kPlace},
-      Member{"type", &Simulated::type,
-             Limits{.shortest = 1, .longest = 1, .may_miss = true, .reason = "no-type", .text = kNoType}},
-      Member{"by", &Simulated::by}, Member{"reason", &Simulated::reason, kReason}};
+  static constexpr auto kMembers =
+      members("seat", &Simulated::seat, kPlace, "type", &Simulated::type,
+              Limits{.shortest = 1, .longest = 1, .may_miss = true, .reason = "no-type", .text = kNoType}, "by",
+              &Simulated::by, "reason", &Simulated::reason, kReason);
 };
 
 /// Another strategy from the next lesson on.
 struct StrategyNamed {
   static constexpr RoomEventKind kKind{"strategy", "strategy", kFacilitator};
   std::string name, reason;
-  static constexpr std::tuple kMembers{
-      Member{"name", &StrategyNamed::name, Limits{.longest = 200, .text = "'name' is missing."}},
-      Member{"reason", &StrategyNamed::reason, kReason}};
+  static constexpr auto kMembers =
+      members("name", &StrategyNamed::name, Limits{.longest = 200, .text = "'name' is missing."}, "reason",
+              &StrategyNamed::reason, kReason);
 };
 
 /// The session ended before its time.
 struct Ended {
   static constexpr RoomEventKind kKind{"ended", "end", kFacilitator, kLogged};
   std::string reason, text;
-  static constexpr std::tuple kMembers{Member{"reason", &Ended::reason, kReason}, Member{"text", &Ended::text}};
+  static constexpr auto kMembers = members("reason", &Ended::reason, kReason, "text", &Ended::text);
 };
 
 /// Events are equal if all of their members are.
