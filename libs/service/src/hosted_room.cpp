@@ -7,11 +7,13 @@
 #include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/store/session_review.hpp"
+#include "service_state.hpp"
 
 namespace kith {
 namespace {
 
 constexpr std::size_t kMostAhead = 4;  // lessons that are begun ahead of time for each one that is taken
+constexpr std::size_t kRunnersUp = 4;  // that a facilitator who looks wants to see besides the chosen demonstrations
 
 }  // namespace
 
@@ -35,28 +37,44 @@ std::uint64_t HostedRoom::mark_of(const std::string& actor, const std::string& m
   return mark;
 }
 
-std::int64_t HostedRoom::now() const { return std::max(host_.now_us(), last_us_); }
+std::int64_t HostedRoom::now() const { return std::max(service_.now_us(), last_us_); }
 
-void HostedRoom::begin(TeachingCache& cache) {
+HostedRoom::HostedRoom(ServiceState& service, StoredRoom stored, RoomSetup setup)
+    : service_{service}, strand_{service.strands.make()}, stored_{std::move(stored)}, setup_{std::move(setup)} {}
+
+void HostedRoom::post(Strands::Job job) { service_.strands.post(strand_, std::move(job)); }
+
+bool HostedRoom::can_show(const std::string& what, const std::function<void()>& show) {
+  std::string problem;
   try {
-    room_.emplace(study_, setup_, cache);
+    show();
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  if (std::exchange(unseen_[what], problem) != problem) service_.views.unseen(*this, what, problem);
+  return problem.empty();
+}
+
+void HostedRoom::begin() {
+  try {
+    service_.caches.lend([&](TeachingCache& cache) { room_.emplace(service_.study, setup_, cache); });
   } catch (const std::exception& error) {
     broken_ = error.what();
-    host_.on_trouble(number(), "room " + setup_.code + " cannot be used: " + broken_);
+    service_.views.trouble(number(), "room " + setup_.code + " cannot be used: " + broken_);
   }
   has_changed_ = true;
   advance();
 }
 
 void HostedRoom::rebuild(std::vector<StoredEvent> events) {
-  host_.teach(TeachingPool::Urgency::kNow,
+  service_.teachers.post(TeachingPool::Urgency::kNow,
               [self = shared_from_this(), events = std::move(events)](TeachingCache& cache) {
                 Rebuilt result;
                 std::int64_t last = 0;
 
                 // A room that does not replay is kept as it is stored, and says why it stands still.
                 try {
-                  Room rebuilt{self->study_, self->setup_, cache};
+                  Room rebuilt{self->service_.study, self->setup_, cache};
                   for (const auto& event : events) {
                     rebuilt.apply(room_event_of(event), cache);
                     result.taught.see(rebuilt);
@@ -69,7 +87,7 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
                   result.problem = error.what();
                 }
 
-                self->host_.post(self->number(), [self, result = std::move(result), last](TeachingCache&) mutable {
+                self->post([self, result = std::move(result), last]() mutable {
                   self->last_us_ = last;
                   self->finish_rebuild(std::move(result));
                 });
@@ -84,10 +102,10 @@ void HostedRoom::finish_rebuild(Rebuilt rebuilt) {
   std::sort(messages_.begin(), messages_.end());
   if (!room_) {
     broken_ = rebuilt.problem;
-    host_.on_trouble(number(), "room " + setup_.code + " cannot be rebuilt: " + broken_);
+    service_.views.trouble(number(), "room " + setup_.code + " cannot be rebuilt: " + broken_);
   }
   has_changed_ = true;
-  if (room_) host_.on_applied(*this, {});
+  if (room_) service_.on_applied(*this, {});
   advance();
 }
 
@@ -113,7 +131,8 @@ void HostedRoom::abandon() {
 void HostedRoom::advance() {
   do_what_can_be_done();
   const auto ahead = std::count_if(lessons_.begin(), lessons_.end(), [](const auto& entry) { return entry.second; });
-  num_sessions_ = static_cast<std::size_t>(ahead) + (room_ && room_->holds_session() ? 1 : 0);
+  const auto sessions = static_cast<std::size_t>(ahead) + (room_ && room_->holds_session() ? 1 : 0);
+  service_.num_sessions += sessions - std::exchange(num_sessions_, sessions);
 }
 
 // Until something is being saved or nothing is left.
@@ -133,7 +152,7 @@ void HostedRoom::do_what_can_be_done() {
   if (setup_.is_waiting_list) {
     constexpr auto kNever = std::numeric_limits<std::int64_t>::max();
     next_due_us_ = std::min(room_->next_due().value_or(kNever), room_->last_call().value_or(kNever));
-    return host_.on_waiting(*this);
+    return service_.waiting.form_group(*this);
   }
   seek_lesson();
   if (saving_) return;
@@ -184,12 +203,12 @@ void HostedRoom::hand_in() {
   batch.tokens = with.tokens;
   batch.revoked = with.revoked;
   batch.events.insert(batch.events.end(), with.events.begin(), with.events.end());
-  host_.save(std::move(batch), [self = shared_from_this()](bool saved) {
-    self->host_.post(self->number(), [self, saved](TeachingCache& cache) { self->on_saved(saved, cache); });
+  service_.save(std::move(batch), [self = shared_from_this()](bool saved) {
+    self->post([self, saved] { self->on_saved(saved); });
   });
 }
 
-void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
+void HostedRoom::on_saved(bool saved) {
   if (!saved) {
     saving_->has_failed = true;
     is_unsaved_ = true;
@@ -199,15 +218,17 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
   is_unsaved_ = false;
   const auto done = std::exchange(saving_, std::nullopt);
   try {
-    for (const auto& event : done->events) {
-      room_->apply(event, cache, event.get<happening::LessonChosen>() != nullptr ? done->lesson.get() : nullptr);
-      taught_.see(*room_);
-      has_changed_ = has_changed_ || event.kind().changes_lessons;
-      last_us_ = event.at_us;
-    }
+    service_.caches.lend([&](TeachingCache& cache) {
+      for (const auto& event : done->events) {
+        room_->apply(event, cache, event.get<happening::LessonChosen>() != nullptr ? done->lesson.get() : nullptr);
+        taught_.see(*room_);
+        has_changed_ = has_changed_ || event.kind().changes_lessons;
+        last_us_ = event.at_us;
+      }
+    });
   } catch (const std::exception& error) {
     broken_ = error.what();
-    host_.on_trouble(number(), "room " + setup_.code + " stopped: " + broken_);
+    service_.views.trouble(number(), "room " + setup_.code + " stopped: " + broken_);
   }
 
   // With a lesson chosen, what was chosen ahead in its place is of no use.
@@ -221,7 +242,7 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
   release();
 
   if (done->done) done->done({.events = done->events, .refusal = {}});
-  host_.on_applied(*this, done->events);
+  service_.on_applied(*this, done->events);
   advance();
 }
 
@@ -283,8 +304,8 @@ void HostedRoom::look_ahead() {
 
 void HostedRoom::start_task(TeachingPool::Urgency urgency, const TeachingTask& task) {
   lessons_.emplace(task.key(), nullptr);
-  const auto runners_up = host_.num_runners_up(number());
-  host_.teach(urgency, [self = shared_from_this(), task, runners_up](TeachingCache& cache) {
+  const auto runners_up = num_watchers > 0 ? kRunnersUp : 0;
+  service_.teachers.post(urgency, [self = shared_from_this(), task, runners_up](TeachingCache& cache) {
     std::shared_ptr<const TaughtLesson> lesson;
     std::string problem;
     const auto choose = [&](std::size_t others) {
@@ -298,9 +319,9 @@ void HostedRoom::start_task(TeachingPool::Urgency urgency, const TeachingTask& t
     // Nobody is taught otherwise because somebody looks.
     choose(runners_up);
     if (!lesson && runners_up > 0) choose(0);
-    self->host_.post(self->number(), [self, lesson, problem](TeachingCache&) {
+    self->post([self, lesson, problem] {
       const auto* what = lesson ? " does not tell what else could be shown: " : " cannot be taught: ";
-      if (!problem.empty()) self->host_.on_trouble(self->number(), "room " + self->setup_.code + what + problem);
+      if (!problem.empty()) self->service_.views.trouble(self->number(), "room " + self->setup_.code + what + problem);
       if (lesson) return self->on_lesson(lesson);
       self->broken_ = problem;
       self->advance();

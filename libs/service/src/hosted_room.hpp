@@ -15,10 +15,13 @@
 #include "kith/live/room.hpp"
 #include "kith/live/taught_people.hpp"
 #include "kith/store/event_file.hpp"
+#include "seat_pages.hpp"
 #include "strands.hpp"
 #include "teaching_pool.hpp"
 
 namespace kith {
+
+struct ServiceState;
 
 // What became of a command: events that are on the disk, or a refusal; neither if it was accepted before.
 struct CommandOutcome {
@@ -33,27 +36,9 @@ struct CommandOutcome {
 // has lessons chosen. All functions but those marked are called on the room's strand.
 class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
  public:
-  // What a room needs of the service.
-  class Host {
-   public:
-    virtual ~Host() = default;
-    [[nodiscard]] virtual std::int64_t now_us() const = 0;
-    virtual void post(std::int64_t room, Strands::Job job) = 0;
-    virtual void save(StoreBatch batch, std::function<void(bool)> done) = 0;
-    virtual void teach(TeachingPool::Urgency urgency, TeachingPool::Job job) = 0;
-    // How many demonstrations a facilitator who watches this room wants to see besides the chosen ones.
-    [[nodiscard]] virtual std::size_t num_runners_up(std::int64_t room) const = 0;
-    // Events were saved and applied: on the strand of the room.
-    virtual void on_applied(HostedRoom& room, std::span<const RoomEvent> events) = 0;
-    // Something is wrong that people should hear of; empty: no longer.
-    virtual void on_trouble(std::int64_t room, const std::string& what) = 0;
-    // The room, a waiting list, has nothing to do at the moment: on its strand. A group may be formed.
-    virtual void on_waiting(HostedRoom& room) = 0;
-  };
   using Done = std::function<void(const CommandOutcome& outcome)>;
 
-  HostedRoom(Host& host, std::shared_ptr<const LiveStudy> study, StoredRoom stored, RoomSetup setup)
-      : host_{host}, study_{std::move(study)}, stored_{std::move(stored)}, setup_{std::move(setup)} {}
+  HostedRoom(ServiceState& service, StoredRoom stored, RoomSetup setup);
 
   // From any thread.
   [[nodiscard]] std::int64_t number() const noexcept { return stored_.number; }
@@ -62,19 +47,24 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   [[nodiscard]] std::int64_t next_due_us() const noexcept { return next_due_us_.load(); }
   // From any thread: whether somebody may find a seat; as long as nobody knows, yes.
   [[nodiscard]] bool may_have_free_seat() const noexcept { return may_have_free_seat_.load(); }
-  // From any thread: how many sessions it has in memory, those of lessons that were chosen ahead of time included; none
-  // once teaching is over.
-  [[nodiscard]] std::size_t num_sessions() const noexcept { return num_sessions_.load(); }
   // From any thread: whether events wait for a disk that refused them.
   [[nodiscard]] bool is_unsaved() const noexcept { return is_unsaved_.load(); }
+  // From any thread: how many facilitators look at it.
+  std::atomic<int> num_watchers = 0;
+  // From any thread: has something done on its strand.
+  void post(Strands::Job job);
 
   // A new room.
-  void begin(TeachingCache& cache);
+  void begin();
   // From any thread: rebuilds it from what is stored, on a thread of the teaching pool. Commands wait meanwhile.
   void rebuild(std::vector<StoredEvent> events);
 
   // Nothing while it is being rebuilt, or if it could not be.
   [[nodiscard]] const Room* room() const noexcept { return room_ ? &*room_ : nullptr; }
+  [[nodiscard]] ServiceState& service() const noexcept { return service_; }
+  [[nodiscard]] SeatPages& pages() noexcept { return pages_; }
+  // Shows something of the room to whoever looks. If that fails facilitators read why, and the room goes on.
+  bool can_show(const std::string& what, const std::function<void()>& show);
   // Has a command decided. `id` of the command may be empty. What is in the batch is saved together with the events
   // that the command leads to, or not at all.
   void ask(RoomCommand command, Done done, StoreBatch with = {});
@@ -125,22 +115,24 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   [[nodiscard]] bool begin_next();
   void save(Saving saving);
   void hand_in();
-  void on_saved(bool saved, TeachingCache& cache);
+  void on_saved(bool saved);
   void seek_lesson();
   void look_ahead();
   void start_task(TeachingPool::Urgency urgency, const TeachingTask& task);
   void on_lesson(std::shared_ptr<const TaughtLesson> lesson);
   [[nodiscard]] static std::uint64_t mark_of(const std::string& actor, const std::string& message);
 
-  Host& host_;
-  std::shared_ptr<const LiveStudy> study_;
+  ServiceState& service_;
+  Strand strand_;
   StoredRoom stored_;
   RoomSetup setup_;
+  SeatPages pages_{};
   std::atomic<std::int64_t> next_due_us_ = std::numeric_limits<std::int64_t>::max();
   std::atomic<bool> is_unsaved_ = false;
-  std::atomic<std::size_t> num_sessions_ = 0;
   std::atomic<bool> may_have_free_seat_ = true;
 
+  std::map<std::string, std::string> unseen_;  // why something of it cannot be shown
+  std::size_t num_sessions_ = 0;               // in memory, those of lessons that were chosen ahead of time included
   std::optional<Room> room_;
   TaughtPeople taught_;
   std::vector<TaughtPerson> observed_;   // once the session is released

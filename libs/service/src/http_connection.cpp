@@ -3,6 +3,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 #include <exception>
+#include <mutex>
 #include <utility>
 
 #include "gzip.hpp"
@@ -52,6 +53,20 @@ std::string bearer_of(const HttpMessage& request) {
 }
 
 }  // namespace
+
+// The answer to a request. It may come when the connection has ended, and the server too.
+struct HttpConnection::Owed {
+  void give(ServerReply reply) {
+    const std::lock_guard lock{mutex};
+    if (!connection) return;
+    asio::post(connection->socket_.get_executor(), [self = connection, reply = std::move(reply)]() mutable {
+      if (self->phase_ == Phase::kWaiting) self->answer(std::move(reply));
+    });
+  }
+
+  std::mutex mutex;
+  std::shared_ptr<HttpConnection> connection;
+};
 
 HttpConnection::HttpConnection(ServerContext& context, tcp::socket socket, Admission::Place place, std::string remote)
     : context_{context},
@@ -209,26 +224,39 @@ void HttpConnection::ask_application(HttpMessage request) {
                                         .bearer = bearer_of(request),
                                         .body = std::move(request.body()),
                                         .remote = client_of(request)};
-  const bool is_taken = context_.workers.post([self = shared_from_this(), question = std::move(question), closes,
-                                               compresses] {
-    ServerReply reply;
-    try {
-      reply = reply_of(self->context_.application.http(question));
-      if (compresses) compress(reply);
-    } catch (const std::exception& error) {
-      self->context_.notice(ServerNotice::Kind::kFailure, "answering a request failed: " + std::string{error.what()});
-      reply = plain_reply(500, "the server could not answer this");
-    }
+  if (context_.waiting_requests >= context_.options.limits.waiting_requests) {
+    auto busy = plain_reply(503, "the server is busy; try again in a few seconds");
+    busy.headers.emplace_back("Retry-After", "2");
+    busy.closes = true;
+    return answer(std::move(busy));
+  }
+
+  ++context_.waiting_requests;
+  owed_ = std::make_shared<Owed>();
+  owed_->connection = shared_from_this();
+  const auto give = [owed = owed_, closes](ServerReply reply) {
     reply.closes = closes;
-    asio::post(self->socket_.get_executor(), [self, reply = std::move(reply)]() mutable {
-      if (self->phase_ == Phase::kWaiting) self->answer(std::move(reply));
+    owed->give(std::move(reply));
+  };
+  try {
+    context_.application.http(std::move(question), [give, compresses](LiveApplication::HttpReply given) {
+      auto reply = reply_of(std::move(given));
+      if (compresses) compress(reply);
+      give(std::move(reply));
     });
-  });
-  if (is_taken) return;
-  auto busy = plain_reply(503, "the server is busy; try again in a few seconds");
-  busy.headers.emplace_back("Retry-After", "2");
-  busy.closes = true;
-  answer(std::move(busy));
+  } catch (const std::exception& error) {
+    context_.notice(ServerNotice::Kind::kFailure, "answering a request failed: " + std::string{error.what()});
+    give(plain_reply(500, "the server could not answer this"));
+  }
+}
+
+// What the application owes is given, or nobody waits for it any more.
+void HttpConnection::end_waiting() {
+  const auto owed = std::exchange(owed_, nullptr);
+  if (!owed) return;
+  --context_.waiting_requests;
+  const std::lock_guard lock{owed->mutex};
+  owed->connection = nullptr;
 }
 
 void HttpConnection::open_web_socket(HttpMessage request) {
@@ -261,6 +289,7 @@ std::string HttpConnection::client_of(const HttpMessage& request) const {
 
 void HttpConnection::answer(ServerReply reply) {
   if (phase_ == Phase::kFinished) return;
+  end_waiting();
   ++context_.requests;
   phase_ = Phase::kWriting;
   reply_ = std::move(reply);
@@ -295,6 +324,7 @@ void HttpConnection::linger() {
 void HttpConnection::finish() {
   if (phase_ == Phase::kFinished) return;
   phase_ = Phase::kFinished;
+  end_waiting();
   if (only_refuses_) --context_.refusing;
   ++timer_round_;
   timer_.cancel();

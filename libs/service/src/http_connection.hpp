@@ -32,6 +32,7 @@ class HttpConnection final : public ServerConnection, public std::enable_shared_
 
  private:
   enum class Phase { kReading, kWaiting, kWriting, kLingering, kFinished };
+  struct Owed;
 
   void begin_request();
   void read();
@@ -40,6 +41,7 @@ class HttpConnection final : public ServerConnection, public std::enable_shared_
   bool judge();
   void dispatch();
   void ask_application(HttpMessage request);
+  void end_waiting();
   void open_web_socket(HttpMessage request);
   void answer(ServerReply reply);
   void on_written(NetError error);
@@ -65,6 +67,7 @@ class HttpConnection final : public ServerConnection, public std::enable_shared_
   std::size_t num_requests_ = 0;
   std::size_t num_discarded_ = 0;
   Destination destination_;
+  std::shared_ptr<Owed> owed_;  // while it waits for the application
   ServerReply reply_;
   std::string head_;
   std::array<char, 4096> in_{};

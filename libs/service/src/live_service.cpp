@@ -1,22 +1,22 @@
 #include "kith/service/live_service.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
+#include "json_depth.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/store/random_token.hpp"
+#include "kith/store/json_members.hpp"
 #include "service_state.hpp"
 
 namespace kith {
 namespace {
 
-constexpr std::size_t kStrandThreads = 2;
+constexpr std::size_t kStrandThreads = 3;  // one of them may be exporting
 constexpr std::size_t kStrandCacheBytes = std::size_t{8} << 20;
 constexpr auto kTick = std::chrono::milliseconds{100};
-constexpr std::size_t kRoomsPerTick = 50;  // that facilitators are shown
 constexpr std::size_t kJoinCodeLength = 8;
 
 std::int64_t system_now_us() {
@@ -41,156 +41,195 @@ std::string code_of(const std::string& store) {
   return code;
 }
 
+LiveServiceOptions filled(LiveServiceOptions options, const LiveStudy& study) {
+  if (!options.now_us) options.now_us = system_now_us;
+  if (!options.free_bytes) options.free_bytes = system_free_bytes;
+  if (options.digest.empty()) options.digest = sha256(live_study_json(study).dump());
+  return options;
+}
+
+// The frame as an object, or nothing. Nesting is limited, since what is nested deeply costs more than it is long.
+std::optional<Json> parse_frame(std::string_view text) {
+  constexpr std::size_t kDeepest = 32;
+  if (!json_nests_within(text, kDeepest)) return std::nullopt;
+  auto json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  return json;
+}
+
 }  // namespace
 
-LiveService::State::State(std::shared_ptr<const LiveStudy> live_study, LiveServiceOptions service_options)
-    : study{std::move(live_study)}, options{std::move(service_options)}, clock{options.now_us} {
-  if (!clock) clock = system_now_us;
-  if (!options.free_bytes) options.free_bytes = system_free_bytes;
-  if (options.digest.empty()) options.digest = sha256(live_study_json(*study).dump());
-  store = std::make_unique<EventStore>(
-      options.folder, StoreIdentity{.study = options.digest, .program = options.program, .inputs = options.inputs},
-      clock);
-  join_code = code_of(store->file().id());
-  free_space = options.free_bytes(options.folder);
-  teachers = std::make_unique<TeachingPool>(study->atlas, options.teaching_workers, options.cache_bytes, busy);
-  strands = std::make_unique<Strands>(study->atlas, kStrandThreads, kStrandCacheBytes, busy);
-  load_rooms();
-  make_waiting_list();
+ServiceState::ServiceState(std::shared_ptr<const LiveStudy> live_study, LiveServiceOptions service_options)
+    : study{std::move(live_study)},
+      options{filled(std::move(service_options), *study)},
+      store{options.folder,
+            StoreIdentity{.study = options.digest, .program = options.program, .inputs = options.inputs},
+            options.now_us},
+      join_code{code_of(store.file().id())},
+      free_space{options.free_bytes(options.folder)},
+      caches{study->atlas, kStrandCacheBytes},
+      teachers{study->atlas, options.teaching_workers, options.cache_bytes, busy},
+      strands{kStrandThreads, busy} {
+  load();
 }
 
-void LiveService::State::post(std::int64_t room, Strands::Job job) {
-  strands->post(static_cast<std::size_t>(room), std::move(job));
-}
+std::int64_t ServiceState::links_expire_us() const { return now_us() + options.token_hours * 3600 * kSecond; }
 
-void LiveService::State::save(StoreBatch batch, std::function<void(bool)> done) {
+void ServiceState::save(StoreBatch batch, std::function<void(bool)> done) {
   busy.begin();
-  store->write(std::move(batch), [this, done = std::move(done)](bool saved) {
+  store.write(std::move(batch), [this, done = std::move(done)](bool saved) {
     done(saved);
     busy.end();
   });
 }
 
-void LiveService::State::teach(TeachingPool::Urgency urgency, TeachingPool::Job job) {
-  teachers->post(urgency, std::move(job));
-}
+// Before there is anybody: what is loaded needs no strand. Rooms are rebuilt last, by others.
+void ServiceState::load() {
+  auto& file = store.file();
+  for (const auto& link : file.tokens()) directory.add(link);
+  std::map<std::int64_t, std::shared_ptr<HostedRoom>> hosted;
+  for (auto& stored : file.rooms()) {
+    auto setup = room_setup(Json::parse(stored.setup));
+    maker.numbers().count(setup);
+    const auto room = std::make_shared<HostedRoom>(*this, std::move(stored), std::move(setup));
+    hosted.emplace(room->number(), room);
+    directory.add(room);
+  }
 
-std::size_t LiveService::State::num_runners_up(std::int64_t room) const {
-  constexpr std::size_t kRunnersUp = 4;
-  const std::lock_guard lock{mutex};
-  return selected.count(room) != 0 ? kRunnersUp : 0;
-}
-
-void LiveService::State::on_applied(HostedRoom& room, std::span<const RoomEvent> events) {
-  {
-    const std::lock_guard lock{mutex};
-    for (const auto& event : events) {
-      if (const auto* came = event.get<happening::Joined>()) {
-        const auto seat = static_cast<std::int64_t>(came->seat);
-        joined.insert({room.number(), seat});
-        auto& contact = contacts[{room.number(), seat}];
-        if (contact.last_seen_us == 0) contact.last_seen_us = now_us();
-      }
-      if (event.get<happening::Consented>() != nullptr || event.get<happening::Declined>() != nullptr)
-        queries.erase({room.number(), static_cast<std::int64_t>(seat_of_actor(event.actor).value_or(0))});
-      const std::string type{event.kind().word};
-      note_person(room.number(), event.actor, type, body_of(event));
-      if (is_logged(event.actor, type)) {
-        write_log(log_entry(room.number(), event.at_us, event.actor, type, body_of(event)));
-      }
+  std::map<std::int64_t, std::vector<StoredEvent>> events;
+  std::vector<LogEntry> entries;
+  std::vector<std::pair<Place, Place>> seated;  // from the waiting list, to a group
+  file.for_each_event([&](const StoredEvent& event) {
+    const auto body = Json::parse(event.json, nullptr, false);
+    if (is_logged(event.actor, event.type))
+      entries.push_back(log_entry(event.room, event.at_us, event.actor, event.type, body));
+    if (event.room == 0) return log.load(event);
+    directory.note(event.room, event.actor, event.type, body);
+    const auto seat = count_at(body, "seat");
+    const bool is_seated = event.type == happening::Seated::kKind.word;
+    if (is_seated) seated.emplace_back(origin_of(body), Place{event.room, static_cast<std::int64_t>(seat)});
+    if (is_seated || event.type == happening::Joined::kKind.word) hosted.at(event.room)->pages().take(seat);
+    events[event.room].push_back(event);
+  });
+  for (const auto& [from, to] : seated) {
+    directory.joined(to);
+    directory.move(from, to);
+    if (const auto list = hosted.find(from.first); list != hosted.end()) {
+      list->second->pages().move(static_cast<std::size_t>(from.second), hosted.at(to.first)->pages(),
+                                 static_cast<std::size_t>(to.second));
     }
-    changed_rooms.insert(room.number());
   }
-  push_room(room);
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
+  for (auto& entry : entries) views.write(std::move(entry));
+  waiting.make();
+  for (const auto& [number, room] : hosted) room->rebuild(std::move(events[number]));
 }
 
-void LiveService::State::on_trouble(std::int64_t room, const std::string& what) {
-  const std::lock_guard lock{mutex};
-  troubles[room] = what;
-  has_news = true;
+void ServiceState::on_applied(HostedRoom& room, std::span<const RoomEvent> events) {
+  for (const auto& event : events) {
+    const std::string type{event.kind().word};
+    const auto body = body_of(event);
+    if (const auto* joined = event.get<happening::Joined>()) room.pages().take(joined->seat);
+    if (is_logged(event.actor, type)) views.write(log_entry(room.number(), event.at_us, event.actor, type, body));
+    post([this, number = room.number(), actor = event.actor, type, body] { directory.note(number, actor, type, body); });
+  }
+  views.changed(room.shared_from_this());
+  room.pages().show(room);
 }
 
-void LiveService::State::check_space(std::int64_t now) {
-  {
-    const std::lock_guard lock{mutex};
-    if (now - looked_at_space_us < kSecond) return;
-    looked_at_space_us = now;
-  }
-  const auto free = options.free_bytes(options.folder);
-  const std::lock_guard lock{mutex};
+void ServiceState::check_space(std::int64_t now) {
+  if (now - looked_at_space_us < kSecond) return;
+  looked_at_space_us = now;
   const auto level = [](std::uint64_t bytes) { return bytes < kNoSpace ? 2 : bytes < kLittleSpace ? 1 : 0; };
-  has_news = has_news || level(free) != level(free_space);
-  free_space = free;
+  const auto free = options.free_bytes(options.folder);
+  if (level(free) != level(free_space.exchange(free))) views.news();
 }
 
-void LiveService::State::tick() {
-  const auto now = now_us();
-  check_space(now);
-  check_presence(now);
-  std::vector<std::shared_ptr<HostedRoom>> due;
-  std::vector<std::shared_ptr<HostedRoom>> changed;
-  bool is_new = false;
-  {
-    const std::lock_guard lock{mutex};
-    for (const auto& [number, room] : rooms) {
-      if (room->next_due_us() <= now || room->is_unsaved()) due.push_back(room);
-    }
-    if (num_facilitators > 0) {
-      for (const auto number : std::exchange(changed_rooms, {})) {
-        const auto found = rooms.find(number);
-        if (found != rooms.end()) changed.push_back(found->second);
-      }
-      // The page of many rooms is large, and something happens in one of them all the time.
-      const bool is_awaited = ticks_awaited > 0;
-      if (is_awaited) --ticks_awaited;
-      if (++ticks_since_shown > pictures.size() / kRoomsPerTick || is_awaited) {
-        is_new = std::exchange(has_news, false);
-        if (is_new) ticks_since_shown = 0;
-      }
-    }
-  }
-  for (const auto& room : due) post(room->number(), [room](TeachingCache&) { room->wake(); });
-  for (const auto& room : changed) post(room->number(), [this, room](TeachingCache&) { take_picture(*room); });
-  if (is_new) post(0, [this](TeachingCache&) { show_facilitators(); });
+void ServiceState::tick() {
+  post([this] {
+    check_space(now_us());
+    directory.tick();
+    views.tick();
+  });
+}
+
+void ServiceState::keep_ticking() {
+  timer.expires_after(kTick);
+  timer.async_wait([this](NetError error) {
+    if (error || is_stopping) return;
+    tick();
+    keep_ticking();
+  });
+}
+
+void ServiceState::stop() {
+  if (is_stopping.exchange(true)) return;
+  post([this] { directory.say_goodbye(); });
+  teachers.stop();
+  busy.wait_for_none();
+  post([this] {
+    for (const auto& [number, room] : directory.rooms()) room->post([room = room] { room->abandon(); });
+  });
+  busy.wait_for_none();
+  strands.stop();
 }
 
 LiveService::LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOptions options)
-    : state_{std::make_unique<State>(std::move(study), std::move(options))} {
-  if (!state_->options.ticks) return;
-  state_->ticker = std::thread{[&state = *state_] {
-    std::unique_lock lock{state.ticking};
-    while (true) {
-      const bool stops = state.ticks.wait_for(lock, kTick, [&] {
-        const std::lock_guard guard{state.mutex};
-        return state.is_stopping;
-      });
-      if (stops) return;
-      state.tick();
-    }
-  }};
+    : state_{std::make_unique<ServiceState>(std::move(study), std::move(options))} {
+  if (state_->options.ticks) state_->keep_ticking();
 }
 
 LiveService::~LiveService() { stop(); }
 
-std::size_t LiveService::num_rooms() const {
-  const std::lock_guard lock{state_->mutex};
-  return state_->num_groups();
+LiveService::StartLinks LiveService::start_links() {
+  const auto expires = state_->links_expire_us();
+  const auto facilitator = Tokens::issue(Role::kFacilitator, 0, 0, expires);
+  const auto observer = Tokens::issue(Role::kObserver, 0, 0, expires);
+  state_->post([&state = *state_, facilitator, observer] {
+    state.directory.add(facilitator);
+    state.directory.add(observer);
+    state.directory.set_links(facilitator.token, observer.token);
+  });
+  state_->save({.tokens = {facilitator.row, observer.row}}, [](bool) {});
+  return {.facilitator = facilitator.token, .observer = observer.token};
 }
 
-std::size_t LiveService::num_sessions() const {
-  const std::lock_guard lock{state_->mutex};
-  return std::accumulate(state_->rooms.begin(), state_->rooms.end(), std::size_t{0},
-                         [](std::size_t sum, const auto& entry) { return sum + entry.second->num_sessions(); });
-}
+std::size_t LiveService::num_rooms() const { return state_->directory.num_groups(); }
+
+std::size_t LiveService::num_sessions() const { return state_->num_sessions; }
 
 void LiveService::set_base_url(std::string url) {
-  const std::lock_guard lock{state_->mutex};
-  state_->base_url = std::move(url);
-  state_->has_news = true;
+  state_->post([&state = *state_, url = std::move(url)] { state.directory.set_base_url(url); });
 }
+
+LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket, std::string /*remote*/) {
+  const auto connection = std::make_shared<Connection>(++state_->last_connection, std::move(socket));
+  if (!state_->is_stopping) state_->post([&state = *state_, connection] { state.directory.open(connection); });
+  return connection->id;
+}
+
+void LiveService::receive(ConnectionId id, std::string_view text) {
+  if (state_->is_stopping) return;
+  state_->post([&state = *state_, id, frame = parse_frame(text)] { state.directory.receive(id, frame); });
+}
+
+void LiveService::measured(ConnectionId id, std::chrono::microseconds round_trip) {
+  if (state_->is_stopping) return;
+  state_->post([&state = *state_, id, round_trip] { state.directory.measured(id, round_trip); });
+}
+
+void LiveService::closed(ConnectionId id) {
+  if (state_->is_stopping) return;
+  state_->post([&state = *state_, id] { state.directory.closed(id); });
+}
+
+void LiveService::http(HttpRequest request, HttpAnswer answer) { state_->handle(request, answer); }
 
 void LiveService::tick() { state_->tick(); }
 
 void LiveService::settle() { state_->busy.wait_for_none(); }
+
+void LiveService::stop() { state_->stop(); }
 
 }  // namespace kith

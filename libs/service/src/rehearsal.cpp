@@ -13,7 +13,7 @@
 #include "bot_facilitator.hpp"
 #include "kith/core/error.hpp"
 #include "latencies.hpp"
-#include "worker_pool.hpp"
+#include "threads.hpp"
 
 namespace kith {
 namespace {

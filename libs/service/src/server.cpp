@@ -12,6 +12,7 @@
 #include "listener.hpp"
 #include "net.hpp"
 #include "server_context.hpp"
+#include "threads.hpp"
 
 namespace kith {
 
@@ -49,7 +50,7 @@ Server::Server(ServerOptions options, LiveApplication& application)
     throw Error{ErrorKind::kIo, "the system grants no thread to serve with",
                 Advice{"raise the limit on processes (ulimit -u)"}};
   }
-  if (state.threads.size() < wanted || state.context.workers.num_threads() < state.context.options.workers) {
+  if (state.threads.size() < wanted) {
     state.context.notice(ServerNotice::Kind::kThreads,
                          "the system grants fewer threads than wanted; serving is slower");
   }
@@ -80,7 +81,6 @@ void Server::stop(std::chrono::milliseconds patience) {
     state.context.connections.cut_all();
     state.context.connections.wait_until_none(std::chrono::steady_clock::now() + std::chrono::seconds{10});
   }
-  state.context.workers.stop();
   state.work.reset();
   state.io.stop();
   state.threads.clear();

@@ -10,7 +10,6 @@
 #include "kith/service/server_options.hpp"
 #include "net.hpp"
 #include "request_rules.hpp"
-#include "worker_pool.hpp"
 
 namespace kith {
 
@@ -20,8 +19,7 @@ struct ServerContext {
       : options{std::move(how)},
         application{what},
         rules{options},
-        admission{options.limits.sockets, options.limits.unauthenticated_per_address},
-        workers{options.workers, options.limits.waiting_requests} {}
+        admission{options.limits.sockets, options.limits.unauthenticated_per_address} {}
 
   /// Whether X-Forwarded-For of this peer is believed.
   [[nodiscard]] bool is_proxy(const asio::ip::address& peer) const {
@@ -41,11 +39,11 @@ struct ServerContext {
   ServerConnections connections;
   std::atomic<std::size_t> web_sockets{0};
   std::atomic<std::size_t> refusing{0};  ///< ServerConnections that are only told that there are too many.
+  std::atomic<std::size_t> waiting_requests{0};  ///< For the application's answer.
   std::atomic<std::uint64_t> requests{0};
   std::atomic<std::uint64_t> frames_in{0};
   std::atomic<std::uint64_t> slow_clients{0};
   std::atomic<std::uint64_t> timed_out{0};
-  WorkerPool workers;  ///< Last: its jobs use what stands above.
 };
 
 }  // namespace kith

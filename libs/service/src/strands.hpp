@@ -1,49 +1,107 @@
 #pragma once
 
-#include <condition_variable>
+#include <boost/asio/post.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "busy_count.hpp"
 #include "kith/teaching/cache.hpp"
+#include "net.hpp"
 
 namespace kith {
 
-// Jobs that touch the same room, one at a time and in the order in which they came; jobs of different rooms at the same
-// time. Each thread has a cache of its own, which jobs may use.
+using Strand = asio::strand<asio::thread_pool::executor_type>;
+
+// Threads that do jobs: those of one strand one at a time and in the order in which they came, those of different
+// strands at the same time. Whatever a part of the service owns is touched by jobs of its strand only.
 class Strands {
  public:
-  using Job = std::function<void(TeachingCache& cache)>;
+  using Job = std::function<void()>;
 
-  Strands(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy);
-  // Does what has been posted.
-  ~Strands();
-  Strands(const Strands&) = delete;
-  Strands& operator=(const Strands&) = delete;
+  Strands(std::size_t threads, BusyCount& busy) : busy_{busy}, pool_{threads} {}
 
+  [[nodiscard]] Strand make() { return asio::make_strand(pool_); }
   // From any thread, jobs included. Jobs must not throw.
-  void post(std::size_t key, Job job);
+  void post(const Strand& strand, Job job) {
+    busy_.begin();
+    asio::post(strand, [this, job = std::move(job)]() mutable {
+      job();
+      job = nullptr;
+      busy_.end();
+    });
+  }
+  // Drops what has not begun.
+  void stop() {
+    pool_.stop();
+    pool_.join();
+  }
 
  private:
-  struct Queue {
-    std::deque<Job> jobs;
-    bool is_running = false;
-  };
-  void run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, std::shared_ptr<PartitionStore> store);
-
   BusyCount& busy_;
+  asio::thread_pool pool_;
+};
+
+// Lets jobs of one strand that wait for others take turns: the next one begins when the one before has said that it has
+// ended.
+class Turns {
+ public:
+  void take(Strands::Job job) {
+    waiting_.push_back(std::move(job));
+    begin();
+  }
+  void end() {
+    is_taken_ = false;
+    begin();
+  }
+
+ private:
+  void begin() {
+    if (is_taken_ || waiting_.empty()) return;
+    is_taken_ = true;
+    const auto job = std::move(waiting_.front());
+    waiting_.pop_front();
+    job();
+  }
+
+  bool is_taken_ = false;
+  std::deque<Strands::Job> waiting_;
+};
+
+// Caches for jobs that need one for a moment: as many as there are at a time. Thread-safe.
+class TeachingCaches {
+ public:
+  TeachingCaches(std::shared_ptr<const Atlas> atlas, std::size_t bytes)
+      : atlas_{std::move(atlas)}, bytes_{bytes}, store_{std::make_shared<PartitionStore>(*atlas_)} {}
+
+  template <typename Use>
+  void lend(const Use& use) {
+    auto cache = take();
+    use(*cache);
+    const std::lock_guard lock{mutex_};
+    idle_.push_back(std::move(cache));
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<TeachingCache> take() {
+    const std::lock_guard lock{mutex_};
+    if (idle_.empty()) return std::make_unique<TeachingCache>(atlas_, bytes_, store_);
+    auto cache = std::move(idle_.back());
+    idle_.pop_back();
+    return cache;
+  }
+
+  std::shared_ptr<const Atlas> atlas_;
+  std::size_t bytes_;
+  std::shared_ptr<PartitionStore> store_;
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::unordered_map<std::size_t, Queue> queues_;
-  std::deque<std::size_t> ready_;
-  bool stopping_ = false;
-  std::vector<std::thread> threads_;
+  std::vector<std::unique_ptr<TeachingCache>> idle_;
 };
 
 }  // namespace kith

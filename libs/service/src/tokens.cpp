@@ -16,10 +16,6 @@ std::string hash_of(std::string_view token) {
 
 }  // namespace
 
-Tokens::Tokens(const std::vector<StoredToken>& stored) {
-  for (const auto& row : stored) add(row);
-}
-
 void Tokens::add(const StoredToken& row) {
   rows_[row.hash] = row;
   if (row.role == name_of(Role::kParticipant)) seats_[{row.room, row.seat}].push_back(row.hash);
@@ -33,9 +29,12 @@ Tokens::Issued Tokens::issue(Role role, std::int64_t room, std::int64_t seat, st
                 .seat = seat,
                 .expires_us = expires_us,
                 .revoked = false};
-  add(issued.row);
-  if (role == Role::kParticipant) secrets_[issued.row.hash] = issued.token;
   return issued;
+}
+
+void Tokens::add(const Issued& issued) {
+  add(issued.row);
+  if (issued.row.role == name_of(Role::kParticipant)) secrets_[issued.row.hash] = issued.token;
 }
 
 Identity Tokens::identify(std::string_view token, std::int64_t now_us) const {

@@ -24,14 +24,14 @@ struct Identity {
 // The links that were given out. Not synchronised.
 class Tokens {
  public:
-  explicit Tokens(const std::vector<StoredToken>& stored);
-
-  // A new token and its row, which is to be stored.
+  // A new token and its row, which is to be stored and then added.
   struct Issued {
     std::string token;
     StoredToken row;
   };
-  [[nodiscard]] Issued issue(Role role, std::int64_t room, std::int64_t seat, std::int64_t expires_us);
+  [[nodiscard]] static Issued issue(Role role, std::int64_t room, std::int64_t seat, std::int64_t expires_us);
+  void add(const StoredToken& row);
+  void add(const Issued& issued);
   // Nobody unless the token is known, not expired and not revoked. Takes the same time whatever is wrong with it.
   [[nodiscard]] Identity identify(std::string_view token, std::int64_t now_us) const;
   void revoke(const std::string& hash);
@@ -41,8 +41,6 @@ class Tokens {
   [[nodiscard]] std::optional<std::string> known(std::int64_t room, std::int64_t seat) const;
 
  private:
-  void add(const StoredToken& row);
-
   std::map<std::string, StoredToken> rows_;     // by hash
   std::map<std::string, std::string> secrets_;  // by hash: of those issued by this process, for the facilitator
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::string>> seats_;  // hashes by room and seat

@@ -143,11 +143,11 @@ class AuthorisationMatrix : public ::testing::Test {
       auto target = name.substr(name.find(' ') + 1);
       if (target == "/api/world") target += "/" + world_key(*stage_.study().study, MdpIndex{0});
       if (target == "/api/qr") target += "?text=x";
-      const auto reply = stage_.service().http({.method = name.substr(0, name.find(' ')),
-                                                .target = target,
-                                                .bearer = link.token,
-                                                .body = "{\"code\":\"NOSUCH\"}",
-                                                .remote = "test"});
+      const auto reply = stage_.ask({.method = name.substr(0, name.find(' ')),
+                                     .target = target,
+                                     .bearer = link.token,
+                                     .body = "{\"code\":\"NOSUCH\"}",
+                                     .remote = "test"});
       const bool is_expected = route.allowed[static_cast<std::size_t>(link.role)] != '-';
       const bool was_allowed =
           reply.status == 200 || (target == "/api/join" && reply.status == 404 && name.substr(0, 4) == "POST");

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,21 +67,18 @@ class FakeApplication final : public LiveApplication {
     ++num_closed;
     changed_.notify_all();
   }
-  HttpReply http(const HttpRequest& request) override {
+  void http(HttpRequest request, HttpAnswer answer) override {
     if (request.target == "/api/throw") throw std::runtime_error{"asked to"};
     if (request.target == "/api/wait") {
-      std::unique_lock lock{mutex_};
-      changed_.wait(lock, [this] { return !holds; });
+      const std::lock_guard lock{mutex_};
+      if (holds) return held_.push_back([answer, reply = reply_to(request)] { answer(reply); });
     }
-    if (request.target == "/api/long") return {.body = std::string(5000, 'a')};
-    if (request.target == "/api/header") return {.body = "{}", .headers = {{"X-Odd", "a\r\nSet-Cookie: b"}}};
-    return {.body = request.method + " " + request.target + " [" + request.bearer + "] " + request.body + " " +
-                    request.remote};
+    answer(reply_to(request));
   }
   void release() {
     const std::lock_guard lock{mutex_};
     holds = false;
-    changed_.notify_all();
+    for (const auto& answer : std::exchange(held_, {})) answer();
   }
   /// Waits until every connection that was opened has been closed.
   bool wait_until_all_closed() {
@@ -100,8 +99,16 @@ class FakeApplication final : public LiveApplication {
   std::vector<std::chrono::microseconds> round_trips;
 
  private:
+  static HttpReply reply_to(const HttpRequest& request) {
+    if (request.target == "/api/long") return {.body = std::string(5000, 'a')};
+    if (request.target == "/api/header") return {.body = "{}", .headers = {{"X-Odd", "a\r\nSet-Cookie: b"}}};
+    return {.body = request.method + " " + request.target + " [" + request.bearer + "] " + request.body + " " +
+                    request.remote};
+  }
+
   std::mutex mutex_;
   std::condition_variable changed_;
+  std::vector<std::function<void()>> held_;
   ConnectionId last_ = 0;
   std::map<ConnectionId, std::shared_ptr<Socket>> sockets_;
 };

@@ -203,9 +203,7 @@ TEST(Limits, ServeMoreBrowsersThanMayStayConnected) {
 }
 
 TEST(Limits, LetOnlySoManyRequestsWaitForTheApplication) {
-  auto options = with({.waiting_requests = 1});
-  options.workers = 1;
-  Served served{options};
+  Served served{with({.waiting_requests = 1})};
   std::vector<RawClient> clients;
   for (int i = 0; i < 4; ++i) {
     clients.emplace_back(served.port());
@@ -213,7 +211,7 @@ TEST(Limits, LetOnlySoManyRequestsWaitForTheApplication) {
   }
   int refused = 0;
   for (int i = 0; i < 500 && served.server.status().requests < 2; ++i) usleep(10'000);
-  EXPECT_TRUE(served.serves_well());  // pages need no worker
+  EXPECT_TRUE(served.serves_well());  // pages do not wait
   served.application.release();
   for (auto& client : clients) refused += read_reply(client).status == 503;
   EXPECT_GE(refused, 1);

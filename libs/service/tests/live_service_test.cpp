@@ -280,6 +280,7 @@ TEST(LiveService, RefusesConnectionsThatDoNotSayWhoTheyAre) {
     const auto socket = std::make_shared<testing::FakeSocket>();
     const auto connection = stage.service().open(socket);
     stage.service().receive(connection, frame);
+    stage.service().settle();
     EXPECT_EQ(socket->close_code(), 1008) << frame;
     EXPECT_FALSE(socket->is_authenticated()) << frame;
     return socket;
@@ -299,6 +300,7 @@ TEST(LiveService, RefusesConnectionsThatDoNotSayWhoTheyAre) {
   stage.pass_ms(60'000);
   EXPECT_FALSE(slow->close_code());
   stage.service().receive(connection, Json{{"t", "hello"}, {"v", 1}, {"token", stage.facilitator_token()}}.dump());
+  stage.service().settle();
   EXPECT_TRUE(slow->is_authenticated());
   EXPECT_EQ(slow->take().front()["t"], "welcome");
 }

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -320,10 +321,18 @@ class Stage {
   }
 
   LiveService::HttpReply get(const std::string& target, const std::string& token = "") {
-    return service_->http({.method = "GET", .target = target, .bearer = token, .body = "", .remote = "test"});
+    return ask({.method = "GET", .target = target, .bearer = token, .body = "", .remote = "test"});
   }
   LiveService::HttpReply post(const std::string& target, const Json& body, const std::string& token = "") {
-    return service_->http({.method = "POST", .target = target, .bearer = token, .body = body.dump(), .remote = "test"});
+    return ask({.method = "POST", .target = target, .bearer = token, .body = body.dump(), .remote = "test"});
+  }
+  LiveService::HttpReply ask(LiveService::HttpRequest request) {
+    auto reply = std::make_shared<std::promise<LiveService::HttpReply>>();
+    auto answer = reply->get_future();
+    service_->http(std::move(request), [reply = std::move(reply)](LiveService::HttpReply given) {
+      reply->set_value(std::move(given));
+    });
+    return answer.get();
   }
   /// Takes a seat under that code. @return the token, or "" if there is none.
   std::string join(const std::string& code, const Json& query = Json::object()) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -56,8 +57,10 @@ class LiveApplication {
   virtual void measured(ConnectionId, std::chrono::microseconds) {}
   /// The connection has ended. Called once for every open().
   virtual void closed(ConnectionId connection) = 0;
-  /// Answers a request below /api, on a worker thread; may take its time.
-  virtual HttpReply http(const HttpRequest& request) = 0;
+  /// Takes the answer to a request: from any thread, once, also when nobody waits for it any more.
+  using HttpAnswer = std::function<void(HttpReply reply)>;
+  /// Has a request below /api answered, now or later. Must not block.
+  virtual void http(HttpRequest request, HttpAnswer answer) = 0;
 };
 
 }  // namespace kith

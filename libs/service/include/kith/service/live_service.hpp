@@ -17,6 +17,7 @@
 namespace kith {
 
 struct LiveStudy;
+struct ServiceState;
 
 /// How live groups are kept and served.
 struct LiveServiceOptions {
@@ -43,7 +44,7 @@ struct LiveServiceOptions {
 /// connections. Knows nothing of networks.
 ///
 /// A message is acknowledged, and its effect shown to anybody, only after it is on the disk. All functions may be
-/// called from any thread; receive() and http() never wait for teaching, and receive() never for the disk.
+/// called from any thread, and those of connections and requests wait for nothing.
 class LiveService final : public LiveApplication {
  public:
   /// The tokens of links for the person who started the service.
@@ -81,7 +82,7 @@ class LiveService final : public LiveApplication {
   void measured(ConnectionId id, std::chrono::microseconds round_trip) override;
   void closed(ConnectionId id) override;
   /// Everything below /api. Never throws for what is in the request.
-  [[nodiscard]] HttpReply http(const HttpRequest& request) override;
+  void http(HttpRequest request, HttpAnswer answer) override;
 
   // --- time -----------------------------------------------------------------
   /// Does what is due by the clock: people become away, time limits end, messages that could not be saved are tried
@@ -94,8 +95,7 @@ class LiveService final : public LiveApplication {
   void stop();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<ServiceState> state_;
 };
 
 }  // namespace kith

@@ -28,7 +28,7 @@ struct ServerLimits {
   /// complete request is closed.
   std::size_t unauthenticated_per_address = 1024;
   std::size_t sockets = 4096;  ///< In all; if all of them have shown a token, further ones are answered with 503.
-  std::size_t waiting_requests = 256;  ///< Requests below /api that wait for a worker; further ones get 503.
+  std::size_t waiting_requests = 256;  ///< Requests below /api that wait for their answer; further ones get 503.
   std::chrono::milliseconds header_time{10'000};
   std::chrono::milliseconds body_time{20'000};
   std::chrono::milliseconds hello_time{5'000};
@@ -54,7 +54,6 @@ struct ServerOptions {
   std::string bind = "127.0.0.1";  ///< An address, not a name.
   std::uint16_t port = 0;          ///< 0: any free port.
   std::size_t io_threads = 2;
-  std::size_t workers = 2;  ///< Threads that answer requests below /api.
   /// Names and addresses (without a port) by which clients may call this server, besides the loopback ones. A request
   /// whose Host is another is refused with 421: a page of somebody else's whose name resolves to this machine must not
   /// be able to talk to it (DNS rebinding).
