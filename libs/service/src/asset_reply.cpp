@@ -1,53 +1,26 @@
 #include "asset_reply.hpp"
 
-#include <cctype>
+#include <algorithm>
+#include <boost/beast/http/rfc7230.hpp>
 #include <stdexcept>
-#include <vector>
 
 namespace kith {
 namespace {
 
 namespace http = boost::beast::http;
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const auto end = text.find(at);
-    parts.push_back(trimmed(text.substr(0, end)));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
-std::string lowered(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 // "gzip;q=0" and "gzip; q=0.000" refuse what they name.
-bool has_no_weight(const std::vector<std::string_view>& parameters) {
-  for (std::size_t i = 1; i < parameters.size(); ++i) {
-    const auto text = lowered(parameters[i]);
-    if (text.rfind("q=0", 0) == 0 && text.find_first_not_of("0.", 2) == std::string::npos) return true;
-  }
-  return false;
+bool has_no_weight(const http::param_list& parameters) {
+  return std::any_of(parameters.begin(), parameters.end(), [](const auto& parameter) {
+    const auto weight = parameter.second;
+    return boost::beast::iequals(parameter.first, "q") && !weight.empty() &&
+           weight.find_first_not_of("0.") == boost::beast::string_view::npos;
+  });
 }
 
-// The client's copies, as weak or strong tags; "*" is any. (RFC 9110, 13.1.2: compared weakly.)
-bool names_tag(std::string_view if_none_match, std::string_view tag) {
-  for (auto one : split(if_none_match, ',')) {
-    if (one == "*") return true;
-    if (one.substr(0, 2) == "W/") one.remove_prefix(2);
-    if (one == tag) return true;
-  }
-  return false;
+// Whether the client has this copy, as a weak or strong tag; "*" is any. (RFC 9110, 13.1.2: compared weakly.)
+bool names_tag(std::string_view if_none_match, const std::string& tag) {
+  return if_none_match == "*" || if_none_match.find(tag) != std::string_view::npos;
 }
 
 }  // namespace
@@ -68,11 +41,9 @@ const Asset* AssetIndex::find(std::string_view path) const {
 
 bool accepts_gzip(std::string_view accept_encoding) {
   bool any = false;
-  for (const auto one : split(accept_encoding, ',')) {
-    const auto parts = split(one, ';');
-    const auto name = lowered(parts.front());
-    if (name == "gzip" || name == "x-gzip") return !has_no_weight(parts);
-    if (name == "*") any = !has_no_weight(parts);
+  for (const auto& [name, parameters] : http::ext_list{{accept_encoding.data(), accept_encoding.size()}}) {
+    if (boost::beast::iequals(name, "gzip") || boost::beast::iequals(name, "x-gzip")) return !has_no_weight(parameters);
+    if (name == "*") any = !has_no_weight(parameters);
   }
   return any;
 }

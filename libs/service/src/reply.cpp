@@ -1,26 +1,12 @@
 #include "reply.hpp"
 
-#include <array>
+#include <fmt/chrono.h>
+
 #include <boost/beast/http/status.hpp>
 #include <ctime>
-#include <ostream>
 
 namespace kith {
 namespace {
-
-// As RFC 9110, 5.6.7 demands, whatever the locale.
-std::string date_now() {
-  static constexpr std::array kDays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
-  static constexpr std::array kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
-                                      "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  const auto two = [](int n) { return std::string(n < 10 ? "0" : "") + std::to_string(n); };
-  return std::string{kDays.at(static_cast<std::size_t>(utc.tm_wday))} + ", " + two(utc.tm_mday) + " " +
-         kMonths.at(static_cast<std::size_t>(utc.tm_mon)) + " " + std::to_string(1900 + utc.tm_year) + " " +
-         two(utc.tm_hour) + ":" + two(utc.tm_min) + ":" + two(utc.tm_sec) + " GMT";
-}
 
 // Names and values come from us and from the application; what could begin another field must not reach the wire.
 std::string clean(std::string_view text) {
@@ -68,7 +54,7 @@ ServerReply plain_reply(int status, std::string text) {
 std::string head_of(const ServerReply& reply) {
   std::string head =
       "HTTP/1.1 " + std::to_string(reply.status) + " " + std::string{reason_phrase(reply.status)} + "\r\n";
-  add(head, "Date", date_now());
+  add(head, "Date", fmt::format("{:%a, %d %b %Y %H:%M:%S} GMT", fmt::gmtime(std::time(nullptr))));
   for (const auto& [name, value] : security_headers()) add(head, name, value);
   for (const auto& [name, value] : reply.headers) add(head, name, value);
   if (reply.status != 304 && reply.status >= 200) add(head, "Content-Length", std::to_string(reply.body().size()));

@@ -33,23 +33,6 @@ bool is_visible_ascii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
 
-bool is_known_method(http::verb verb) {
-  switch (verb) {
-    case http::verb::get:
-    case http::verb::head:
-    case http::verb::post:
-    case http::verb::put:
-    case http::verb::delete_:
-    case http::verb::options:
-    case http::verb::patch:
-    case http::verb::trace:
-    case http::verb::connect:
-      return true;
-    default:
-      return false;
-  }
-}
-
 constexpr std::string_view kApplicationPath = "/api/";
 constexpr std::string_view kWebSocketPath = "/ws";
 
@@ -67,7 +50,7 @@ std::optional<ServerReply> RequestRules::judge_message(const HttpMessage& head) 
     if (head.version() < 11) return refusal(400, "HTTP/1.0 has no Transfer-Encoding");
     if (!head.chunked()) return refusal(501, "the only Transfer-Encoding known here is chunked");
   }
-  if (!is_known_method(head.method())) return refusal(501, "this method is not known here");
+  if (head.method() == http::verb::unknown) return refusal(501, "this method is not known here");
   const auto expect = head[field::expect];
   if (!expect.empty() && !boost::beast::iequals(expect, "100-continue")) {
     return refusal(417, "this expectation cannot be met");
