@@ -166,27 +166,24 @@ void Bot::act() {
   if (!next || next->key == done_key_) return;
   if (!next->world.empty()) {
     const auto path = path_for(*next);
-    if (!path) return;  // called again when the world is there
-    next->body["actions"] = path->actions;
-    if (path->for_ever) next->body["for_ever"] = true;
+    next->body["actions"] = path.actions;
+    if (path.for_ever) next->body["for_ever"] = true;
     auto keys = Json::array();
     int at = 0;
-    for (const int action : path->actions) keys.push_back({action, at += 150});
+    for (const int action : path.actions) keys.push_back({action, at += 150});
     next->body["keys"] = std::move(keys);
     next->body["ms"] = at;
   }
   send(*std::move(next));
 }
 
-std::optional<AnswerPath> Bot::path_for(const BotAct& act) {
-  const auto table = world_.book.find(act.world, token_, [weak = weak_from_this()] {
-    if (const auto self = weak.lock()) asio::post(self->strand_, [self] { self->act(); });
-  });
-  if (!table) return std::nullopt;
-  if (world_.options.right_path && uniform() < world_.options.right) {
-    if (auto path = world_.options.right_path(act.world, act.start)) return path;
-  }
-  return AnswerPath{table->shortest_path(act.start).value_or(std::vector<int>{}), false};
+// A wrong answer stops one step too early.
+AnswerPath Bot::path_for(const BotAct& act) {
+  auto path = world_.options.right_path(act.world, act.start).value_or(AnswerPath{});
+  if (uniform() < world_.options.right || path.actions.empty()) return path;
+  path.actions.pop_back();
+  path.for_ever = false;
+  return path;
 }
 
 void Bot::send(BotAct act) {

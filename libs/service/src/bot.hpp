@@ -17,7 +17,6 @@
 #include "kith/explain/json.hpp"
 #include "kith/service/rehearsal.hpp"
 #include "net.hpp"
-#include "world_book.hpp"
 
 namespace kith {
 
@@ -31,7 +30,6 @@ struct BotGroup {
 struct BotWorld {
   const RehearsalOptions& options;
   tcp::endpoint server;
-  WorldBook& book;
   std::atomic<std::size_t> unfinished{0};
 };
 
@@ -85,7 +83,7 @@ class Bot : public std::enable_shared_from_this<Bot> {
   void transmit();
   void tick();
   void finish();
-  [[nodiscard]] std::optional<AnswerPath> path_for(const BotAct& act);
+  [[nodiscard]] AnswerPath path_for(const BotAct& act);
   [[nodiscard]] std::chrono::milliseconds time_for(double pace);
   [[nodiscard]] double uniform();
 

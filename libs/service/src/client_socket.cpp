@@ -2,16 +2,10 @@
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/http/string_body.hpp>
-#include <boost/beast/http/write.hpp>
-#include <exception>
 #include <random>
 #include <utility>
 
 namespace kith {
-
-namespace http = boost::beast::http;
 
 ClientSocket::ClientSocket(const boost::asio::any_io_executor& strand, Handlers handlers)
     : handlers_{std::move(handlers)}, stream_{strand} {}
@@ -79,26 +73,6 @@ void ClientSocket::cut() {
 std::string random_prefix() {
   std::random_device device;
   return "rehearsal-" + std::to_string(device()) + "-" + std::to_string(device()) + "-";
-}
-
-std::optional<std::string> http_get(const tcp::endpoint& server, const std::string& target,
-                                    const std::string& token) try {
-  asio::io_context io;
-  tcp::socket socket{io};
-  socket.connect(server);
-  http::request<http::empty_body> request{http::verb::get, target, 11};
-  request.set(http::field::host, "localhost:" + std::to_string(server.port()));
-  request.set(http::field::authorization, "Bearer " + token);
-  request.set(http::field::connection, "close");
-  http::write(socket, request);
-  boost::beast::flat_buffer buffer;
-  http::response_parser<http::string_body> parser;
-  parser.body_limit(std::uint64_t{1} << 28);
-  http::read(socket, buffer, parser);
-  if (parser.get().result() != http::status::ok) return std::nullopt;
-  return std::move(parser.get().body());
-} catch (const std::exception&) {
-  return std::nullopt;
 }
 
 }  // namespace kith

@@ -5,7 +5,6 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -44,9 +43,5 @@ class ClientSocket : public std::enable_shared_from_this<ClientSocket> {
 
 /// What the ids of one client's messages begin with: another one each time, since servers remember ids for good.
 [[nodiscard]] std::string random_prefix();
-
-/// The body of a GET request with a token, without waiting for other things; nothing if it is not answered with 200.
-[[nodiscard]] std::optional<std::string> http_get(const tcp::endpoint& server, const std::string& target,
-                                                  const std::string& token);
 
 }  // namespace kith

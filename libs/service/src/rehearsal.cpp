@@ -79,11 +79,11 @@ class Handlers {
 // The groups of a rehearsal and the people in them.
 class Groups {
  public:
-  Groups(asio::io_context& io, const tcp::endpoint& server, const RehearsalOptions& options, WorldBook& book)
+  Groups(asio::io_context& io, const tcp::endpoint& server, const RehearsalOptions& options)
       : io_{io},
         server_{server},
         options_{options},
-        world_{.options = options, .server = server, .book = book},
+        world_{.options = options, .server = server},
         seed_{options.seed} {
     facilitator_.emplace(io_, server_, options_.facilitator);
     add(options_.groups);
@@ -180,15 +180,12 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
   const tcp::endpoint server{address, options.port};
   const bool is_timed = options.duration.count() > 0;
 
-  WorldBook book{[server](const std::string& key, const std::string& token) {
-    return http_get(server, "/api/world/" + key, token);
-  }};
   asio::io_context io;
   std::optional<Groups> groups;
   double seconds = 0.0;
   {
     Handlers handlers{io, std::max<std::size_t>(options.threads, 1)};
-    groups.emplace(io, server, options, book);
+    groups.emplace(io, server, options);
     const auto start = Clock::now();
     const auto wait = [&](auto&& goes_on) {
       while (goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {

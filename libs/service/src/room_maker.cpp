@@ -1,5 +1,6 @@
 #include "room_maker.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 

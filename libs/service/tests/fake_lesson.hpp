@@ -69,11 +69,7 @@ class FakeLesson final : public LiveApplication {
     const std::lock_guard lock{mutex_};
     connections_.erase(connection);
   }
-  HttpReply http(const HttpRequest& request) override {
-    ++worlds_fetched;
-    if (request.target != "/api/world/w") return {.status = 404, .body = "{}"};
-    return {.body = R"({"next":[[1,-1],[2,0],[-1,-1]],"end":[false,false,true]})"};
-  }
+  void http(HttpRequest, HttpAnswer answer) override { answer({.status = 404, .body = "{}"}); }
 
   [[nodiscard]] std::size_t num_rooms() {
     const std::lock_guard lock{mutex_};
@@ -93,7 +89,6 @@ class FakeLesson final : public LiveApplication {
   std::vector<std::string> answers;  ///< Ids, in order.
   std::set<std::string> paths;
   std::set<std::string> seen;
-  int worlds_fetched = 0;
   std::map<std::string, std::set<std::string>> looked_at;  ///< Rooms, by who looked.
   int early_frames = 0;                                    ///< Before the hello of their connection.
 

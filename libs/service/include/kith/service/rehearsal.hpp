@@ -33,11 +33,11 @@ struct RehearsalOptions {
   std::chrono::milliseconds duration{0};
   std::chrono::milliseconds answer_every{5'000};  ///< How long a person takes for an answer, on average.
   double reconnects = 0.0;                        ///< Share of people who lose their connection, per second.
-  double right = 0.8;                             ///< Share of answers for which a right path is used, where known.
+  double right = 0.8;                             ///< Share of right answers; others stop a step too early.
   std::uint64_t seed = 1;
   std::size_t threads = 1;
-  /// A right answer; nothing if it is not known. Others are answered with a shortest path to an
-  /// end. @param world  its key; @param start  number of the state. Called from several threads.
+  /// A right answer; nothing if it is not known. @param world  its key; @param start  number of the state. Called from
+  /// several threads.
   std::function<std::optional<AnswerPath>(const std::string& world, int start)> right_path{};
   /// Called about every 100 ms with the time since the start; false ends the rehearsal.
   std::function<bool(std::chrono::milliseconds elapsed)> on_tick{};
