@@ -8,6 +8,7 @@
 #include <iterator>
 #include <vector>
 
+#include "kith/core/text.hpp"
 #include "kith_build_info.hpp"
 
 namespace kith::cli {
@@ -54,10 +55,6 @@ std::string program_name() {
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
-std::string shell_line() {
-  std::string line;
-  for (const auto& word : command_line()) line += (line.empty() ? "" : " ") + quoted(word);
-  return line;
-}
+std::string shell_line() { return joined(command_line(), " ", quoted); }
 
 }  // namespace kith::cli

@@ -11,6 +11,7 @@
 #include "input.hpp"
 #include "kith/bec/inference.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/text.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/policy_file.hpp"
 #include "kith/domains/variation.hpp"
@@ -101,8 +102,7 @@ class InferenceText {
     for (std::size_t k = 0; k < domain_.num_features(); ++k)
       out_ += fmt::format("  {:<16} {:>10}\n", domain_.feature_names()[k], inference_.weights[k]);
     out_ += fmt::format("  {} seen; margin {:.4f}; what is not explained gives away {:.4g} per action, at length 1\n",
-                        inference_.num_seen == 1 ? "1 state" : fmt::format("{} states", inference_.num_seen),
-                        inference_.margin, inference_.loss);
+                        counted(inference_.num_seen, "state"), inference_.margin, inference_.loss);
   }
 
   void sides() {
@@ -132,9 +132,7 @@ class InferenceText {
     if (inference_.clashes.empty()) return;
     heading("What a further feature would have to tell apart");
     for (const auto& clash : inference_.clashes) {
-      std::string states;
-      for (const auto& state : clash.states) states += (states.empty() ? "" : "; ") + place(state);
-      out_ += "  " + states + "\n";
+      out_ += "  " + joined(clash.states, "; ", [&](StartId state) { return place(state); }) + "\n";
       for (const auto& half_space : clash.half_spaces) out_ += "    " + described(domain_, half_space) + "\n";
     }
   }

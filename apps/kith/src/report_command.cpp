@@ -6,12 +6,12 @@
 #include "analysis_in_r.hpp"
 #include "command.hpp"
 #include "embedded.hpp"
-#include "kith/core/baseline.hpp"
 #include "kith/core/error.hpp"
 #include "kith/live/room.hpp"
 #include "kith/report/report.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/store/session_study.hpp"
+#include "kith/teaching/strategy.hpp"
 #include "page.hpp"
 
 namespace kith::cli {

@@ -12,6 +12,7 @@
 
 #include "exit_codes.hpp"
 #include "interrupt.hpp"
+#include "kith/core/text.hpp"
 #include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/live/world_json.hpp"
@@ -107,8 +108,7 @@ std::vector<std::string> row_of(const std::string& name, const LatencySummary& t
 }
 
 std::string counts_text(const auto& counts) {
-  std::string text;
-  for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+  const auto text = joined(counts, ", ", [](const auto& one) { return fmt::format("{} {}", one.first, one.second); });
   return text.empty() ? "none" : text;
 }
 

@@ -22,11 +22,11 @@ enum class Figures {
 };
 
 Figures figures_of(std::size_t num_features, const StudySummary& summary) {
-  const auto examined = [](const CellSummary& cell) { return cell.exam.has_value(); };
-  if (num_features <= 3 || !std::all_of(summary.cells.begin(), summary.cells.end(), examined))
-    return Figures::kKnowledge;
-  const auto before = [](const CellSummary& cell) { return cell.exam->regret_before.has_value(); };
-  return std::all_of(summary.cells.begin(), summary.cells.end(), before) ? Figures::kExamBefore : Figures::kExam;
+  const auto all_have = [&](std::optional<MeanSd> CellSummary::*value) {
+    return std::ranges::all_of(summary.cells, [&](const auto& cell) { return (cell.*value).has_value(); });
+  };
+  if (num_features <= 3 || !all_have(&CellSummary::regret)) return Figures::kKnowledge;
+  return all_have(&CellSummary::regret_before) ? Figures::kExamBefore : Figures::kExam;
 }
 
 bool has_skipped(const StudySummary& summary) {
@@ -50,16 +50,13 @@ void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary&
   keys.push_back(fmt::format("{}", cell.teams));
   keys.push_back(fmt::format("{}", cell.completed));
   if (with_skipped) keys.push_back(fmt::format("{}", cell.skipped));
-  keys.push_back(mean_sd_text(cell.periods, 2));
+  keys.push_back(mean_sd_text(*cell.periods, 2));
   if (figures == Figures::kKnowledge) {
-    keys.push_back(mean_sd_text(cell.knowledge, 3));
-    keys.push_back(mean_sd_text(cell.area_sr, 3));
+    for (const auto& value : {cell.knowledge, cell.area_sr}) keys.push_back(mean_sd_text(*value, 3));
   } else {
-    const auto& exam = *cell.exam;
-    if (figures == Figures::kExamBefore) keys.push_back(fmt::format("{:.3f}", exam.regret_before->mean));
-    keys.push_back(mean_sd_text(exam.regret, 3));
-    keys.push_back(mean_sd_text(exam.share_right, 3));
-    keys.push_back(fmt::format("{:.3f}", exam.worst_share_right.mean));
+    if (figures == Figures::kExamBefore) keys.push_back(fmt::format("{:.3f}", cell.regret_before->mean));
+    for (const auto& value : {cell.regret, cell.share_right}) keys.push_back(mean_sd_text(*value, 3));
+    keys.push_back(fmt::format("{:.3f}", cell.worst_share_right->mean));
   }
   table.add(std::move(keys));
 }
@@ -85,7 +82,9 @@ std::string table_notes(const StudySummary& summary, Figures figures, const Cons
   return console.dim(text) + "\n";
 }
 
-Json mean_sd_json(const MeanSd& value) { return {{"mean", value.mean}, {"sd", value.sd ? Json(*value.sd) : Json{}}}; }
+Json mean_sd_json(const std::optional<MeanSd>& value) {
+  return {{"mean", value->mean}, {"sd", value->sd ? Json(*value->sd) : Json{}}};
+}
 
 Json group_json(const CellSummary& cell, const Study& study) {
   Json json = Json::object();
@@ -112,11 +111,11 @@ Json group_json(const CellSummary& cell, const Study& study) {
         {"periods", {{"mean", ahead.periods}, {"low", ahead.periods_low}, {"high", ahead.periods_high}}},
         {"minutes", {{"mean", ahead.minutes}, {"low", ahead.minutes_low}, {"high", ahead.minutes_high}}}};
   }
-  if (cell.exam) {
-    json["exam"] = {{"share_right", mean_sd_json(cell.exam->share_right)},
-                    {"regret", mean_sd_json(cell.exam->regret)},
-                    {"worst_share_right", mean_sd_json(cell.exam->worst_share_right)}};
-    if (cell.exam->regret_before) json["exam"]["regret_before"] = mean_sd_json(*cell.exam->regret_before);
+  if (cell.regret) {
+    json["exam"] = {{"share_right", mean_sd_json(cell.share_right)},
+                    {"regret", mean_sd_json(cell.regret)},
+                    {"worst_share_right", mean_sd_json(cell.worst_share_right)}};
+    if (cell.regret_before) json["exam"]["regret_before"] = mean_sd_json(cell.regret_before);
   }
   return json;
 }

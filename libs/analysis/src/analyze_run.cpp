@@ -17,11 +17,10 @@ std::string design_note(const RunTeams& teams) {
   const auto skipped = std::ranges::count(teams.records, SessionStatus::kSkipped, &TeamRecord::status);
   const auto cut_off = std::ranges::count(teams.records, false, &TeamRecord::completed) - skipped;
   std::string text =
-      number_and_noun(teams.size(), "team") + ": " +
+      counted(teams.size(), "team") + ": " +
       (teams.strategy.levels.size() == 1 ? "1 strategy" : fmt::format("{} strategies", teams.strategy.levels.size())) +
-      " x " + number_and_noun(teams.composition.levels.size(), "composition");
-  for (const auto& key : teams.varied)
-    text += " x " + number_and_noun(key.levels.size(), "setting") + " of " + key.name;
+      " x " + counted(teams.composition.levels.size(), "composition");
+  for (const auto& key : teams.varied) text += " x " + counted(key.levels.size(), "setting") + " of " + key.name;
   if (cut_off > 0) {
     text += fmt::format("; {} reached the maximum number of periods unfinished and {} counted as {} stood", cut_off,
                         cut_off == 1 ? "is" : "are", cut_off == 1 ? "it" : "they");

@@ -1,6 +1,9 @@
 #include "kith/analysis/anova.hpp"
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cell_model.hpp"
 #include "checks.hpp"
@@ -9,50 +12,76 @@
 namespace kith {
 namespace {
 
-std::vector<double> residuals_of(const CellModel& model, const StandardizedResponse& response,
-                                 const Eigen::VectorXd& z) {
-  const Eigen::VectorXd fitted = model.fitted(z);
-  std::vector<double> residuals(response.values.size());
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    const auto cell = static_cast<Eigen::Index>(model.cell_of()[i]);
-    residuals[i] = std::ldexp(response.values[i] - fitted(cell), response.exponent);
+std::string reason_without_df(const CellDesign& design, std::size_t term) {
+  for (const auto factor : design.terms[term]) {
+    if (design.factors[factor].levels.size() < 2)
+      return "only one level of '" + design.factors[factor].name + "' has observations";
   }
-  return residuals;
+  return "";
+}
+
+// Why the cells' means have no standard errors, and no term a test; empty if they have.
+std::string reason_without_errors(const CellDesign& design, std::size_t residual_df, double residual, double rounding) {
+  if (residual_df == 0) return "no residual degrees of freedom: as many parameters as observations";
+  if (residual > negligible_sum_of_squares(rounding, design.cell_of.size())) return "";
+  return design.model_df() == design.counts.size() ? "no spread within the cells"
+                                                   : "no spread around the model's values";
+}
+
+// What the cells say of their means. @param residual  of standardised values.
+Estimable<FixedEffects> effects_of_cells(const CellDesign& design, const StandardizedResponse& response,
+                                         const std::vector<double>& means, double residual, std::size_t df,
+                                         std::string no_errors) {
+  const double mean_square = no_errors.empty() ? residual / static_cast<double>(df) : 0.0;
+  const double unit = std::ldexp(mean_square, 2 * response.exponent);
+  if (std::isinf(unit))
+    return Estimable<FixedEffects>::impossible("the residual spread is beyond the range of numbers");
+  if (no_errors.empty() && unit == 0.0) no_errors = "the residual spread is too small for numbers";
+  FixedEffects effects{.design = design, .centre = response.centre, .means = means};
+  for (auto& mean : effects.means) mean = std::ldexp(mean, response.exponent);
+  effects.pools = {{0, 1, static_cast<double>(df), unit}};
+  effects.residual_sd = no_errors.empty() ? Estimable<double>{std::ldexp(std::sqrt(mean_square), response.exponent)}
+                                          : Estimable<double>::impossible(no_errors);
+  effects.no_standard_errors = std::move(no_errors);
+  return effects;
 }
 
 }  // namespace
 
 AnovaTable anova(std::span<const double> response, std::span<const Factor> factors,
-                 std::span<const std::vector<std::size_t>> terms, SumsOfSquares type) {
+                 std::span<const std::vector<std::size_t>> terms) {
   require_finite(response, "anova");
-  const CellModel model{response.size(), factors, terms, type};
-  const auto standardized = standardize(response);
-
+  const auto made = make_cell_design(response.size(), factors, terms);
   AnovaTable table;
-  table.type = type;
   table.observations = response.size();
-  table.balanced = model.balanced();
-  table.empty_cells = model.empty_cells();
-  for (const auto& term : model.terms()) {
-    table.terms.push_back({term.name, term.df});
-    if (!term.reason.empty()) test_term(table.terms.back(), 0.0, 0.0, 0, term.reason);
+  for (const auto& term : terms) table.terms.push_back({term_name(term, factors)});
+  if (!made) {
+    for (auto& term : table.terms) test_term(term, 0.0, 0.0, 0, made.reason());
+    table.effects = Estimable<FixedEffects>::impossible(made.reason());
+    return table;
   }
-  if (!model.reason().empty()) return table;
+  const auto& design = *made;
+  const auto standardized = standardize(response);
+  const auto cells = moments_of(standardized.values, design);
+  const auto fitted = design.fitted(cells.means);
+  double residual = cells.within;
+  for (std::size_t c = 0; c < fitted.size(); ++c)
+    residual += static_cast<double>(design.counts[c]) * (cells.means[c] - fitted[c]) * (cells.means[c] - fitted[c]);
 
-  const auto cells = model.summarize(standardized.values);
-  const double residual = cells.within + model.lack_of_fit(cells.weighted_means);
-  const bool no_spread = residual <= negligible_sum_of_squares(standardized.rounding, response.size());
-  table.residual_df = model.residual_df();
+  table.balanced = design.is_balanced();
+  table.residual_df = response.size() - design.model_df();
   table.residual_sum_of_squares = std::ldexp(residual, 2 * standardized.exponent);
-  table.residuals = residuals_of(model, standardized, cells.weighted_means);
+  for (std::size_t i = 0; i < response.size(); ++i)
+    table.residuals.push_back(std::ldexp(standardized.values[i] - fitted[design.cell_of[i]], standardized.exponent));
+  const auto no_errors = reason_without_errors(design, table.residual_df, residual, standardized.rounding);
   for (std::size_t t = 0; t < table.terms.size(); ++t) {
-    auto reason = model.terms()[t].reason;
-    if (reason.empty() && no_spread)
-      reason = model.saturated() ? "no spread within the cells" : "no spread around the model's values";
-    const double sum_of_squares = model.term_sum_of_squares(t, cells.weighted_means);
+    const double sum_of_squares = term_sum_of_squares(design, t, cells.means);
+    table.terms[t].df = design.df(t);
     table.terms[t].sum_of_squares = std::ldexp(sum_of_squares, 2 * standardized.exponent);
-    test_term(table.terms[t], sum_of_squares, residual, table.residual_df, reason);
+    const auto no_df = reason_without_df(design, t);
+    test_term(table.terms[t], sum_of_squares, residual, table.residual_df, no_df.empty() ? no_errors : no_df);
   }
+  table.effects = effects_of_cells(design, standardized, cells.means, residual, table.residual_df, no_errors);
   return table;
 }
 

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "kith/analysis/anova.hpp"
-#include "kith/analysis/factor.hpp"
+#include "kith/analysis/cell_design.hpp"
 
 namespace kith {
 
@@ -24,65 +21,17 @@ struct StandardizedResponse {
 
 // Means and spread of the cells, all that a model of factors asks of a response.
 struct CellMoments {
-  Eigen::VectorXd weighted_means;  // z: mean * sqrt(count) per cell, which is sum / sqrt(count)
-  double within = 0.0;             // Sum of squares of the differences from the cells' means.
+  std::vector<double> means;  // [cells]
+  double within = 0.0;        // Sum of squares of the differences from the cells' means.
 };
+// Two passes that keep all digits of a standardised response.
+[[nodiscard]] CellMoments moments_of(std::span<const double> values, const CellDesign& design);
 
-// A linear model whose terms are factors and their interactions.
-//
-// A cell is a combination of levels that some observation has. The model is fitted by weighted least squares to the
-// cells' means; every sum of squares is the squared length of the projection of z onto an orthonormal basis.
-class CellModel {
- public:
-  struct Term {
-    std::string name;       // "strategy:composition"
-    std::size_t df = 0;     // Rank that the term adds to the model without it.
-    std::string reason;     // Why the term cannot be tested whatever the response is; empty if it can.
-    Eigen::MatrixXd basis;  // Of what the term adds: shape [cells, df], orthonormal columns.
-  };
+// The squared length of what a term of the design adds to the cells' means, every observation counted.
+[[nodiscard]] double term_sum_of_squares(const CellDesign& design, std::size_t term, const std::vector<double>& means);
 
-  // Levels without observations do not count. Throws std::invalid_argument for codes that are no levels, for factors
-  // of other lengths than `observations`, and for terms that name no factor.
-  CellModel(std::size_t observations, std::span<const Factor> factors, std::span<const std::vector<std::size_t>> terms,
-            SumsOfSquares type);
-
-  [[nodiscard]] const std::vector<Term>& terms() const noexcept { return terms_; }
-  [[nodiscard]] std::size_t observations() const noexcept { return cell_of_.size(); }
-  [[nodiscard]] std::size_t num_cells() const noexcept { return counts_.size(); }
-  [[nodiscard]] const std::vector<std::size_t>& cell_of() const noexcept { return cell_of_; }  // [observations]
-  [[nodiscard]] std::size_t empty_cells() const noexcept { return empty_cells_; }
-  [[nodiscard]] bool balanced() const noexcept;
-  [[nodiscard]] std::size_t residual_df() const noexcept { return residual_df_; }
-  // The model fits every cell's mean: as many columns as cells.
-  [[nodiscard]] bool saturated() const noexcept { return saturated_; }
-  // Why nothing can be fitted: no observations, or too many cells and columns for dense matrices. Empty if it can.
-  [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
-
-  // Two passes that keep all digits of a standardised response.
-  [[nodiscard]] CellMoments summarize(std::span<const double> values) const;
-
-  [[nodiscard]] double term_sum_of_squares(std::size_t term, const Eigen::VectorXd& z) const {
-    return (terms_[term].basis.transpose() * z).squaredNorm();
-  }
-  // What the cells' means vary beyond the model: with `within` it makes the residual sum of squares.
-  [[nodiscard]] double lack_of_fit(const Eigen::VectorXd& z) const;
-  // The cells' means that the model expects; shape [cells].
-  [[nodiscard]] Eigen::VectorXd fitted(const Eigen::VectorXd& z) const;
-
- private:
-  // Finds the bases of the model and of its terms. `columns` are those of each term, `sets` their factors.
-  void decompose(const std::vector<Eigen::MatrixXd>& columns, const std::vector<std::vector<std::size_t>>& sets,
-                 SumsOfSquares type);
-
-  std::vector<Term> terms_;
-  std::vector<std::size_t> cell_of_;
-  std::vector<std::size_t> counts_;
-  Eigen::VectorXd root_counts_;
-  Eigen::MatrixXd basis_;  // Of the whole model: shape [cells, rank].
-  std::size_t empty_cells_ = 0;
-  std::size_t residual_df_ = 0;
-  bool saturated_ = false;
-  std::string reason_;
-};
+// Squared length of what values say between the groups of each level, within those of the level before, and within the
+// smallest groups. @param groups  nested in one another, from the largest to the smallest, of equal sizes.
+[[nodiscard]] std::vector<double> squares_in_strata(std::span<const double> values, std::span<const Factor> groups);
 
 }  // namespace kith

@@ -6,10 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/memory.hpp"
+#include "kith/core/text.hpp"
 #include "kith/files/csv_reader.hpp"
 #include "kith/files/table_text.hpp"
 
@@ -44,10 +46,8 @@ std::string shortened(const std::string& name) {
   return name.substr(0, end) + "...";
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
-    list += (i == 0 ? "" : ", ") + shortened(names[i]);
+std::string listed_names(const std::vector<std::string>& names) {
+  const auto list = joined(std::span{names}.first(std::min(names.size(), kMostListed)), ", ", shortened);
   return names.size() <= kMostListed ? list : list + " and " + std::to_string(names.size() - kMostListed) + " more";
 }
 
@@ -115,7 +115,7 @@ std::size_t Dataset::index_of(std::string_view column) const {
       .file = file_,
       .line = 1,
       .column = 1,
-      .hint = nearest.empty() ? "the columns are " + listed(columns_) : "did you mean '" + nearest + "'?"}}};
+      .hint = nearest.empty() ? "the columns are " + listed_names(columns_) : "did you mean '" + nearest + "'?"}}};
 }
 
 const std::vector<std::optional<std::string>>& Dataset::cells(std::string_view column) const {
@@ -238,11 +238,12 @@ void Dataset::refuse_filters(std::span<const RowFilter> filters) const {
     const auto nearest = filter.equal ? nearest_word(filter.value, values) : std::string{};
     const bool many = values.size() > kMostDistinct;
     if (many) values.resize(kMostDistinct);
-    nothing.hint = values.empty() ? "every cell of column '" + filter.column + "' is empty"
-                                  : "column '" + filter.column + "' has " +
-                                        (values.size() == 1 ? "only the value " : "the values ") + listed(values) +
-                                        (many ? " and others" : "") + (any_missing ? ", and empty cells" : "") +
-                                        (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+    nothing.hint = values.empty()
+                       ? "every cell of column '" + filter.column + "' is empty"
+                       : "column '" + filter.column + "' has " +
+                             (values.size() == 1 ? "only the value " : "the values ") + listed_names(values) +
+                             (many ? " and others" : "") + (any_missing ? ", and empty cells" : "") +
+                             (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
     throw Error{{std::move(nothing)}};
   }
 

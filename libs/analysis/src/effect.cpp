@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "kith/core/text.hpp"
 #include "kith/files/column_names.hpp"
 
 namespace kith {
@@ -37,11 +38,7 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-std::string known_quantities() {
-  std::string list;
-  for (const auto& outcome : outcomes()) list += (list.empty() ? "" : ", ") + std::string{outcome.column};
-  return list;
-}
+std::string known_quantities() { return joined(outcomes(), ", ", &StudyOutcome::column); }
 
 bool is_product(const std::string& word) { return word == "x" || word == "*" || word == ":"; }
 

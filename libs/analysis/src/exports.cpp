@@ -31,7 +31,7 @@ std::string term_words(const std::string& name) {
       factors.back() += c;
     }
   }
-  return (factors.size() > 1 ? "the interaction of " : "the effect of ") + with_and(factors);
+  return (factors.size() > 1 ? "the interaction of " : "the effect of ") + listed(factors);
 }
 
 std::string sentence_start(std::string text) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "kith/analysis/decimals.hpp"
+#include "kith/core/text.hpp"
 
 namespace kith {
 namespace {
@@ -127,8 +128,7 @@ std::vector<std::string> field_names(const ResultTable& table) {
 std::string p_text(double p) { return p < kSmallestShownP ? std::string{"p < 0.001"} : fmt::format("p = {:.3f}", p); }
 
 std::string not_analysed_text(const Analysis& analysis) {
-  std::string text;
-  for (const auto& what : analysis.not_analysed) text += (text.empty() ? "" : "; ") + what;
+  const auto text = joined(analysis.not_analysed, "; ");
   return text.empty() ? text : "Not analysed: " + text + ".";
 }
 

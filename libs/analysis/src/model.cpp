@@ -23,33 +23,45 @@ Method eta_squared_method(double alpha) {
 }
 
 std::string formula_text(const ModelData& data) {
-  std::string text = data.response + " ~ " + (data.terms.empty() ? "1" : "");
-  for (const auto& term : data.terms) {
-    if (&term != &data.terms.front()) text += " + ";
-    for (const auto factor : term) text += (factor == term.front() ? "" : ":") + data.factors[factor].name;
-  }
+  std::string text = data.response + " ~ " + (data.terms.empty() ? "1" : "") +
+                     joined(data.terms, " + ", [&](const auto& term) { return term_name(term, data.factors); });
   for (const auto& groups : data.groups) text += " + (1|" + groups.name + ")";
   return text;
 }
 
+namespace {
+
+// A model of independent rows; returns why it cannot be fitted, if it cannot.
+std::string add_independent_model(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
+  const auto result = fit_model(data, options);
+  finding.sentence =
+      fmt::format("Analysis of variance of {} ({} {}).", data.response, data.values.size(), data.observations);
+  if (!result.table.effects) return result.table.effects.reason();
+  finding.sentence += sentence_of(data, result, options.alpha);
+  finding.warnings = warnings_of(data, result, options.alpha);
+  add_anova_results(data, result, options, finding);
+  return "";
+}
+
+}  // namespace
+
 ModelResult fit_model(const ModelData& data, const AnalysisOptions& options) {
-  ModelResult result{anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeII), {}};
+  ModelResult result{anova(data.values, data.factors, data.terms), {}};
   for (const auto& term : result.table.terms) result.eta_squared.push_back(eta_squared_of(term.test, options.alpha));
-  result.linear = fit_linear_model(data.values, data.factors, data.terms);
   return result;
 }
 
 Finding analyze_model(const ModelData& data, const AnalysisOptions& options) {
-  if (!data.groups.empty()) return analyze_nested_model(data, options);
-  const auto result = fit_model(data, options);
-  Finding finding;
-  finding.id = data.response;
-  finding.model = formula_text(data);
+  Finding finding{.id = data.response, .model = formula_text(data)};
   finding.topic = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
-  finding.sentence = sentence_of(data, result, options.alpha);
-  finding.warnings = warnings_of(data, result, options.alpha);
-  add_anova_results(data, result, options, finding);
+  const auto reason =
+      data.groups.empty() ? add_independent_model(data, options, finding) : add_nested_model(data, options, finding);
+  if (!reason.empty()) {
+    finding.sentence += " It cannot be fitted, so nothing is tested: " + reason + ".";
+    if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) finding.tables.push_back(std::move(*means));
+    return finding;
+  }
   add_survival_results(data, options, finding);
   add_bound_results(data, options, finding);
   return finding;
@@ -58,17 +70,6 @@ Finding analyze_model(const ModelData& data, const AnalysisOptions& options) {
 void add_method(Finding& finding, Method method) {
   const auto same = [&](const Method& known) { return known.text == method.text; };
   if (std::none_of(finding.methods.begin(), finding.methods.end(), same)) finding.methods.push_back(std::move(method));
-}
-
-std::string with_and(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
-}
-
-std::string number_and_noun(std::size_t n, const std::string& noun) {
-  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
 TableCell number_cell(double value) { return TableCell{value}; }

@@ -10,8 +10,8 @@
 #include "kith/analysis/effect_size.hpp"
 #include "kith/analysis/factor.hpp"
 #include "kith/analysis/finding.hpp"
-#include "kith/analysis/linear_model.hpp"
 #include "kith/analysis/nested_model.hpp"
+#include "kith/core/text.hpp"
 
 namespace kith {
 
@@ -28,9 +28,8 @@ struct ModelData {
 
 // The analysis of variance of a model with its intervals.
 struct ModelResult {
-  AnovaTable table;                              // type II
+  AnovaTable table;
   std::vector<Estimable<Interval>> eta_squared;  // per term, with confidence 1 - 2 alpha
-  Estimable<LinearModel> linear = Estimable<LinearModel>::impossible("not computed");  // the same model, for its means
 };
 [[nodiscard]] ModelResult fit_model(const ModelData& data, const AnalysisOptions& options);
 
@@ -39,16 +38,10 @@ struct ModelResult {
 
 // Every term in words: what was found about it.
 [[nodiscard]] std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha);
-// One of them, with the sizes that the interval of partial eta squared spans. `means` is where estimated marginal means
-// come from; may be missing.
+// One of them, with the sizes that the interval of partial eta squared spans, and the range of the marginal means.
 [[nodiscard]] std::string term_sentence(const ModelData& data, std::size_t term, const Estimable<TestResult>& test,
-                                        const Estimable<Interval>& eta_squared, const FixedEffects* means,
+                                        const Estimable<Interval>& eta_squared, const FixedEffects& means,
                                         double alpha);
-// Warns that a term is significant by one type of sums of squares only; empty if it is not.
-[[nodiscard]] std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
-                                            const Estimable<TestResult>& type_three, double alpha);
-// Warns of combinations of levels without observations.
-[[nodiscard]] std::string empty_cells_text(std::size_t empty_cells, const std::string& observations);
 // What is doubtful about the model, and what could not be estimated.
 [[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);
 
@@ -70,8 +63,9 @@ void add_bound_results(const ModelData& data, const AnalysisOptions& options, Fi
 // together allow none.
 [[nodiscard]] std::optional<ResultTable> raw_means_table(const ModelData& data, double confidence, bool with_limits);
 
-// A model with data.groups as random intercepts: tests, variances, means and pairs.
-[[nodiscard]] Finding analyze_nested_model(const ModelData& data, const AnalysisOptions& options);
+// Adds a model with data.groups as random intercepts to a finding: sentences, tests, variances, means and pairs.
+// Returns why it cannot be fitted, if it cannot.
+[[nodiscard]] std::string add_nested_model(const ModelData& data, const AnalysisOptions& options, Finding& finding);
 // Its tables, and the methods behind them. Captions begin with `about`.
 void add_nested_results(const ModelData& data, const NestedModel& model, const AnalysisOptions& options,
                         Finding& finding, const std::string& about = "");
@@ -93,10 +87,6 @@ template <typename T>
 [[nodiscard]] Method eta_squared_method(double alpha);
 // Adds a method unless the finding has it.
 void add_method(Finding& finding, Method method);
-// "a", "a and b", "a, b and c"
-[[nodiscard]] std::string with_and(const std::vector<std::string>& words);
-// "1 team", "4 teams"
-[[nodiscard]] std::string number_and_noun(std::size_t n, const std::string& noun);
 
 // Partial eta squared of an F test with the interval that does not contain 0 exactly if p < alpha.
 [[nodiscard]] Estimable<Interval> eta_squared_of(const Estimable<TestResult>& test, double alpha);

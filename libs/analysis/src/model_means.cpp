@@ -52,11 +52,11 @@ double without_rounding(double estimate, double low, double high) {
 ComparisonResult result_of(const Comparison& comparison, const FixedEffects& model) {
   const auto& [estimate, group] = comparison;
   ComparisonResult result{.name = estimate.name, .at = group};
-  result.estimate = known(estimate.estimate);
+  result.estimate = estimate.estimate;
   if (!estimate.inference) return result;
 
   const auto& inference = *estimate.inference;
-  result.estimate = without_rounding(*estimate.estimate, inference.low, inference.high);
+  result.estimate = without_rounding(estimate.estimate, inference.low, inference.high);
   result.low = inference.low;
   result.high = inference.high;
   result.t = inference.statistic;
@@ -71,31 +71,11 @@ ComparisonResult result_of(const Comparison& comparison, const FixedEffects& mod
   return result;
 }
 
-// Whether any of them could be estimated.
-bool any_estimate(const std::vector<LinearEstimate>& estimates) {
-  return std::any_of(estimates.begin(), estimates.end(),
-                     [](const auto& one) { return static_cast<bool>(one.estimate); });
-}
-
-Adjustment adjustment_of(Correction correction) {
-  switch (correction) {
-    case Correction::kNone:
-      return Adjustment::kNone;
-    case Correction::kHolm:
-      return Adjustment::kHolm;
-    case Correction::kFdr:
-      return Adjustment::kFdr;
-    case Correction::kBonferroni:
-      break;
-  }
-  return Adjustment::kBonferroni;
-}
-
-MeanFamily means_of_levels(const std::string& factor, const MarginalMeans& means) {
+MeanFamily means_of_levels(const std::string& factor, const MarginalGroup& means) {
   MeanFamily family{factor, {}};
-  for (const auto& mean : means.groups.front().means) {
+  for (const auto& mean : means.means) {
     auto& result = family.means.emplace_back(MeanResult{.level = mean.name, .n = mean.observations});
-    result.mean = known(mean.estimate);
+    result.mean = mean.estimate;
     result.low = known(mean.inference, &Inference::low);
     result.high = known(mean.inference, &Inference::high);
   }
@@ -109,38 +89,27 @@ ResultTable means_table(const MeanFamily& family) {
                             show(&MeanResult::high, "upper limit"), show(&MeanResult::n, "n", Kind::kCount)});
 }
 
-std::optional<std::size_t> factor_named(const FixedEffects& model, const std::string& name) {
-  const auto& factors = model.design.factors;
-  for (std::size_t f = 0; f < factors.size(); ++f) {
-    if (factors[f].name == name) return f;
-  }
-  return std::nullopt;
-}
-
-bool has_levels(const ModelFactor& factor, const PlannedContrast& contrast) {
-  return std::all_of(contrast.weights.begin(), contrast.weights.end(), [&](const auto& weight) {
-    return std::find(factor.levels.begin(), factor.levels.end(), weight.level) != factor.levels.end();
-  });
+std::optional<std::size_t> factor_named(std::span<const Factor> factors, const std::string& name) {
+  const auto found = std::ranges::find(factors, name, &Factor::name);
+  if (found == factors.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - factors.begin());
 }
 
 // The factor that a contrast is about; nothing if it has none of these levels.
-std::optional<std::size_t> factor_of(const FixedEffects& model, const PlannedContrast& contrast) {
-  if (!contrast.factor.empty()) {
-    const auto named = factor_named(model, contrast.factor);
-    return named && has_levels(model.design.factors[*named], contrast) ? named : std::nullopt;
-  }
-  for (std::size_t f = 0; f < model.design.factors.size(); ++f) {
-    if (has_levels(model.design.factors[f], contrast)) return f;
+std::optional<std::size_t> factor_of(std::span<const Factor> factors, const PlannedContrast& contrast) {
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    const auto& levels = factors[f].levels;
+    const bool has_levels = std::ranges::all_of(
+        contrast.weights, [&](const auto& weight) { return std::ranges::find(levels, weight.level) != levels.end(); });
+    if (has_levels && (contrast.factor.empty() || contrast.factor == factors[f].name)) return f;
   }
   return std::nullopt;
 }
 
-std::vector<double> weights_of(const ModelFactor& factor, const PlannedContrast& contrast) {
+std::vector<double> weights_of(const Factor& factor, const PlannedContrast& contrast) {
   std::vector<double> weights(factor.levels.size(), 0.0);
-  for (const auto& [level, weight] : contrast.weights) {
-    const auto found = std::find(factor.levels.begin(), factor.levels.end(), level);
-    weights[static_cast<std::size_t>(found - factor.levels.begin())] = weight;
-  }
+  for (const auto& [level, weight] : contrast.weights)
+    weights[static_cast<std::size_t>(std::ranges::find(factor.levels, level) - factor.levels.begin())] = weight;
   return weights;
 }
 
@@ -153,7 +122,7 @@ class Writer {
     for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
       const auto& factor = model_.design.factors[f];
       if (factor.levels.size() < 2 || factor.levels.size() > kMostMeans) continue;
-      finding_.means.push_back(means_of_levels(factor.name, means_of(f, {})));
+      finding_.means.push_back(means_of_levels(factor.name, means_of(f, {}).front()));
       tables_.push_back(means_table(finding_.means.back()));
     }
     if (!model_.design.factors.empty()) add_method(finding_, {"estimated marginal means", "searle1980"});
@@ -165,7 +134,7 @@ class Writer {
 
   void add_simple_effects() {
     for (const auto& name : options_.by) {
-      const auto by = factor_named(model_, name);
+      const auto by = factor_named(model_.design.factors, name);
       if (!by || model_.design.factors[*by].levels.size() > kMostSimpleEffects) continue;
       for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
         if (f == *by) continue;
@@ -185,13 +154,13 @@ class Writer {
     for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
       std::vector<MeanContrast> contrasts;
       for (const auto& contrast : options_.contrasts) {
-        if (factor_of(model_, contrast) == f)
+        if (factor_of(model_.design.factors, contrast) == f)
           contrasts.push_back({contrast.name, weights_of(model_.design.factors[f], contrast)});
       }
       if (contrasts.empty()) continue;
       add_planned_of(f, std::nullopt, contrasts);
       for (const auto& name : options_.by) {
-        const auto by = factor_named(model_, name);
+        const auto by = factor_named(model_.design.factors, name);
         if (by && *by != f && interact(model_.design.terms, f, *by)) add_planned_of(f, by, contrasts);
       }
     }
@@ -200,19 +169,17 @@ class Writer {
  private:
   static constexpr std::size_t kMostMeans = 60;
 
-  [[nodiscard]] MarginalMeans means_of(std::size_t factor, std::optional<std::size_t> by) const {
-    const std::vector<std::size_t> over{factor};
-    const auto at = by ? std::vector{*by} : std::vector<std::size_t>{};
-    return marginal_means(model_, over, at, 1.0 - options_.alpha);
+  [[nodiscard]] std::vector<MarginalGroup> means_of(std::size_t factor, std::optional<std::size_t> by) const {
+    return marginal_means(model_, factor, by, 1.0 - options_.alpha);
   }
 
   // The planned contrasts of a factor, at each level of `by` if there is one: a family per level.
   [[nodiscard]] std::vector<Comparison> planned(std::size_t factor, std::optional<std::size_t> by,
                                                 const std::vector<MeanContrast>& contrasts) const {
-    const auto adjustment = contrasts.size() > 1 && !by ? adjustment_of(options_.correction) : Adjustment::kNone;
+    const auto correction = contrasts.size() > 1 && !by ? options_.correction : Correction::kNone;
     std::vector<Comparison> comparisons;
-    for (const auto& group : means_of(factor, by).groups) {
-      for (auto& estimate : estimate_contrasts(model_, group, contrasts, adjustment, 1.0 - options_.alpha))
+    for (const auto& group : means_of(factor, by)) {
+      for (auto& estimate : estimate_contrasts(model_, group, contrasts, correction, 1.0 - options_.alpha))
         comparisons.push_back({std::move(estimate), group.name});
     }
     return comparisons;
@@ -224,20 +191,9 @@ class Writer {
     const bool is_family = factor.levels.size() > 2;
 
     std::vector<Comparison> comparisons;
-    for (const auto& group : means_of(f, by).groups) {
-      auto pairs = estimate_contrasts(model_, group, pairwise_contrasts(group),
-                                      is_family ? Adjustment::kTukey : Adjustment::kNone, 1.0 - options_.alpha);
-      if (!any_estimate(pairs)) {
-        const bool interacts = std::any_of(
-            model_.design.terms.begin(), model_.design.terms.end(),
-            [&](const auto& term) { return term.size() > 1 && std::find(term.begin(), term.end(), f) != term.end(); });
-        finding_.warnings.push_back(
-            fmt::format("the levels of {} cannot be compared{}: {}{}", factor.name,
-                        by ? " at " + group.name : std::string{}, pairs.front().estimate.reason(),
-                        interacts ? "; kith analyze --model tests a model without the interaction" : ""));
-        continue;
-      }
-      for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
+    for (const auto& group : means_of(f, by)) {
+      for (auto& pair : estimate_pairs(model_, group, 1.0 - options_.alpha))
+        comparisons.push_back({std::move(pair), group.name});
     }
 
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
@@ -290,10 +246,8 @@ class Writer {
 
   [[nodiscard]] std::string sentence_of_contrast(const Comparison& one) const {
     const auto& name = one.estimate.name;
-    if (!one.estimate.inference)
-      return fmt::format(" {} cannot be tested: {}.", name,
-                         one.estimate.estimate ? one.estimate.inference.reason() : one.estimate.estimate.reason());
-    return fmt::format(" {}: {} [{}, {}], {}.", name, formatted(*one.estimate.estimate, Kind::kNumber),
+    if (!one.estimate.inference) return fmt::format(" {} cannot be tested: {}.", name, one.estimate.inference.reason());
+    return fmt::format(" {}: {} [{}, {}], {}.", name, formatted(one.estimate.estimate, Kind::kNumber),
                        formatted(one.estimate.inference->low, Kind::kNumber),
                        formatted(one.estimate.inference->high, Kind::kNumber), p_text(one.estimate.inference->p));
   }
@@ -302,33 +256,12 @@ class Writer {
                   const std::vector<Comparison>& comparisons) {
     if (comparisons.empty()) return;
     for (const auto& one : comparisons) family.comparisons.push_back(result_of(one, model_));
-    warn_of_missing(comparisons);
 
     const bool is_corrected = family.kind == ComparisonFamily::Kind::kPlanned && !family.by.empty() &&
                               options_.correction != Correction::kNone;
     if (is_corrected) correct_over_levels(family);
     tables_.push_back(comparison_table(caption, first, family, is_corrected));
     finding_.comparisons.push_back(std::move(family));
-  }
-
-  // One note for all comparisons that cannot be made for the same reason.
-  void warn_of_missing(const std::vector<Comparison>& comparisons) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-    for (const auto& one : comparisons) {
-      if (one.estimate.estimate) continue;
-      const auto& reason = one.estimate.estimate.reason();
-      auto found =
-          std::find_if(reasons.begin(), reasons.end(), [&](const auto& known) { return known.first == reason; });
-      if (found == reasons.end()) found = reasons.insert(reasons.end(), {reason, {}});
-      found->second.push_back(one.group.empty() ? one.estimate.name : one.group + ": " + one.estimate.name);
-    }
-    for (auto& [reason, names] : reasons) {
-      constexpr std::size_t kMostNames = 6;
-      const auto more = names.size() > kMostNames ? names.size() - kMostNames : 0;
-      if (more > 0) names.resize(kMostNames);
-      if (more > 0) names.push_back(number_and_noun(more, "other comparison"));
-      finding_.warnings.push_back(fmt::format("{} cannot be estimated: {}", with_and(names), reason));
-    }
   }
 
   const FixedEffects& model_;
@@ -345,27 +278,18 @@ void add_contrast_results(const FixedEffects& model, const AnalysisOptions& opti
 }
 
 LinearEstimate contrast_estimate(const FixedEffects& model, const PlannedContrast& contrast, double confidence) {
-  const auto factor = factor_of(model, contrast).value();
-  const std::vector<std::size_t> over{factor};
-  const auto means = marginal_means(model, over, {}, confidence);
+  const auto factor = factor_of(model.design.factors, contrast).value();
   const std::vector<MeanContrast> one{{contrast.name, weights_of(model.design.factors[factor], contrast)}};
-  return estimate_contrasts(model, means.groups.front(), one, Adjustment::kNone, confidence).front();
+  return estimate_contrasts(model, marginal_means(model, factor).front(), one, Correction::kNone, confidence).front();
 }
 
 std::string range_of_means(const FixedEffects& model, const std::string& factor) {
-  const auto f = factor_named(model, factor);
+  const auto f = factor_named(model.design.factors, factor);
   if (!f) return "";
-  const std::vector<std::size_t> over{*f};
-  const auto means = marginal_means(model, over);
-  const MarginalMean *low = nullptr, *high = nullptr;
-  for (const auto& mean : means.groups.front().means) {
-    if (!mean.estimate) return "";  // what is not comparable has no range
-    if (low == nullptr || *mean.estimate < *low->estimate) low = &mean;
-    if (high == nullptr || *mean.estimate > *high->estimate) high = &mean;
-  }
-  if (low == nullptr) return "";
+  const auto means = marginal_means(model, *f).front().means;
+  const auto [low, high] = std::ranges::minmax_element(means, {}, &MarginalMean::estimate);
   const auto text = [](const MarginalMean& mean) {
-    return fmt::format("{} ({})", formatted(*mean.estimate, Kind::kNumber), mean.name);
+    return fmt::format("{} ({})", formatted(mean.estimate, Kind::kNumber), mean.name);
   };
   return fmt::format("from {} to {}", text(*low), text(*high));
 }
@@ -387,9 +311,7 @@ bool interact(const std::vector<std::vector<std::size_t>>& terms, std::size_t a,
 }
 
 bool is_testable(const std::vector<Factor>& factors, const PlannedContrast& contrast) {
-  FixedEffects known;
-  for (const auto& factor : factors) known.design.factors.push_back({factor.name, factor.levels});
-  return factor_of(known, contrast).has_value();
+  return factor_of(factors, contrast).has_value();
 }
 
 void check_comparisons(const std::vector<Factor>& factors, const AnalysisOptions& options) {
@@ -401,7 +323,7 @@ void check_comparisons(const std::vector<Factor>& factors, const AnalysisOptions
   for (const auto& by : options.by) {
     if (std::find(names.begin(), names.end(), by) != names.end()) continue;
     throw Error{ErrorKind::kUsage, fmt::format("--by {}: the model has no factor of this name, but {}", by,
-                                               names.empty() ? "none" : with_and(names))};
+                                               names.empty() ? "none" : listed(names))};
   }
   for (const auto& contrast : options.contrasts) {
     if (is_testable(factors, contrast)) continue;

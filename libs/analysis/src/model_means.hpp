@@ -8,7 +8,7 @@
 
 namespace kith {
 
-// "from 6.70 (PPP) to 8.53 (NNN)": the estimated marginal means of a factor; empty if one of them is not estimable.
+// "from 6.70 (PPP) to 8.53 (NNN)": the estimated marginal means of a factor.
 [[nodiscard]] std::string range_of_means(const FixedEffects& model, const std::string& factor);
 
 // Adds the estimated marginal means of every factor, if asked for; all pairs of them (Tukey-Kramer), also at each level

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "kith/analysis/decimals.hpp"
-#include "kith/analysis/design_effect.hpp"
 #include "kith/analysis/nested_model.hpp"
 #include "model_means.hpp"
 #include "shown.hpp"
@@ -13,11 +12,10 @@ namespace kith {
 namespace {
 
 // By how far values are from the mean of their cell: what the groups have in common counts as chance.
-void add_far_value_of_cells(const ModelData& data, const FactorDesign& design, std::vector<std::string>& warnings) {
+void add_far_value_of_cells(const ModelData& data, const CellDesign& design, std::vector<std::string>& warnings) {
   std::vector<double> means(design.counts.size(), 0.0), leverages(design.counts.size(), 0.0), residuals;
   for (std::size_t i = 0; i < data.values.size(); ++i) means[design.cell_of[i]] += data.values[i];
   for (std::size_t cell = 0; cell < means.size(); ++cell) {
-    if (design.counts[cell] == 0) continue;
     leverages[cell] = 1.0 / static_cast<double>(design.counts[cell]);
     means[cell] *= leverages[cell];
   }
@@ -53,7 +51,7 @@ ResultTable tests_table(const std::string& caption, const TestFamily& family) {
                                     show(&TermResult::p, "p-value", Kind::kP)}));
 }
 
-ResultTable variances_table(const NestedModel& model, const std::vector<Factor>& groups) {
+ResultTable variances_table(const NestedModel& model) {
   ResultTable table{kVariancesCaption,
                     {{"rows with the same", Kind::kText},
                      {"groups", Kind::kCount},
@@ -64,12 +62,11 @@ ResultTable variances_table(const NestedModel& model, const std::vector<Factor>&
                      {"p-value", Kind::kP},
                      {"design effect", Kind::kNumber}},
                     {}};
-  for (std::size_t k = 0; k < model.groups.size(); ++k) {
-    const auto& one = model.groups[k];
+  for (const auto& one : model.groups) {
     table.rows.push_back({text_cell(one.name), count_cell(one.groups), one.variance, one.intraclass_correlation,
                           cell_of(one.intraclass_interval, &Interval::low),
                           cell_of(one.intraclass_interval, &Interval::high), cell_of(one.test, &TestResult::p),
-                          cell_of(design_effect(groups[k], one.intraclass_correlation), &DesignEffect::design_effect)});
+                          number_cell(one.design_effect)});
   }
   std::vector<TableCell> residual(table.columns.size(), text_cell(""));
   residual[0] = text_cell("(residual)");
@@ -80,17 +77,16 @@ ResultTable variances_table(const NestedModel& model, const std::vector<Factor>&
 
 std::string likeness_sentence(const NestedModel& model, const ModelData& data) {
   std::string text;
-  for (std::size_t k = 0; k < model.groups.size(); ++k) {
-    const auto& one = model.groups[k];
-    const auto effect = design_effect(data.groups[k], one.intraclass_correlation);
+  for (const auto& one : model.groups) {
     text += fmt::format(" The intraclass correlation of {} with the same {} is {:.2f}", data.observations, one.name,
                         one.intraclass_correlation);
     if (one.intraclass_interval)
       text += " " + interval_text(one.intraclass_interval->low, one.intraclass_interval->high, 2);
-    if (effect && effect->design_effect > 1.0) {
+    if (one.design_effect > 1.0) {
       text += fmt::format(
           " (design effect {:.2f}: for the overall mean, {} {} carry as much information as {:.0f} independent ones)",
-          effect->design_effect, data.values.size(), data.observations, effect->effective_observations);
+          one.design_effect, data.values.size(), data.observations,
+          static_cast<double>(data.values.size()) / one.design_effect);
     }
     text += ".";
   }
@@ -130,7 +126,7 @@ void add_nested_results(const ModelData& data, const NestedModel& model, const A
     add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
     add_method(finding, eta_squared_method(options.alpha));
   }
-  tables.push_back(variances_table(model, data.groups));
+  tables.push_back(variances_table(model));
   if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) tables.push_back(std::move(*means));
   add_marginal_results(model.fixed, options, true, finding, tables);
   for (auto& table : tables) {
@@ -139,33 +135,20 @@ void add_nested_results(const ModelData& data, const NestedModel& model, const A
   }
 }
 
-Finding analyze_nested_model(const ModelData& data, const AnalysisOptions& options) {
-  Finding finding{.id = data.response, .model = formula_text(data)};
-  finding.topic = finding.model;
-  finding.question = "Does " + data.response + " depend on the factors of the model?";
-
+std::string add_nested_model(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
   const auto model = fit_nested_model(data.values, data.factors, data.terms, data.groups, 1.0 - options.alpha);
   finding.sentence = fmt::format("Mixed model of {} ({} {} in {} groups).", data.response, data.values.size(),
                                  data.observations, data.groups.front().levels.size());
-
-  if (!model) {
-    finding.sentence += " It cannot be fitted, so nothing is tested: " + model.reason() + ".";
-    if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) finding.tables.push_back(std::move(*means));
-    return finding;
-  }
-
-  const auto& tests = model->tests;
+  if (!model) return model.reason();
   for (std::size_t t = 0; t < data.terms.size(); ++t) {
-    finding.sentence += " " + term_sentence(data, t, tests[t].test, eta_squared_of(tests[t].test, options.alpha),
-                                            &model->fixed, options.alpha);
+    const auto& test = model->tests[t].test;
+    finding.sentence +=
+        " " + term_sentence(data, t, test, eta_squared_of(test, options.alpha), model->fixed, options.alpha);
   }
-
   finding.sentence += likeness_sentence(*model, data);
   add_nested_warnings(*model, data, finding);
   add_nested_results(data, *model, options, finding);
-  add_survival_results(data, options, finding);
-  add_bound_results(data, options, finding);
-  return finding;
+  return "";
 }
 
 }  // namespace kith

@@ -72,11 +72,8 @@ void name_methods(const ModelData& data, const ModelResult& result, const Analys
   const auto has_test = [](const AnovaTerm& term) { return static_cast<bool>(term.test); };
   if (std::none_of(result.table.terms.begin(), result.table.terms.end(), has_test)) return;
   const bool single = data.factors.size() == 1;
-  const bool both_types = !result.table.balanced && !single;
   add_method(finding, {fmt::format("{} analysis of variance{}", ways(data.factors.size()),
-                                   single       ? ""
-                                   : both_types ? " (type II and type III sums of squares)"
-                                                : " (type II sums of squares)")});
+                                   single ? "" : " (type II sums of squares)")});
   const auto has_interval = [](const auto& interval) { return static_cast<bool>(interval); };
   if (std::any_of(result.eta_squared.begin(), result.eta_squared.end(), has_interval))
     add_method(finding, eta_squared_method(options.alpha));
@@ -98,24 +95,11 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
   if (data.factors.empty()) return;
   finding.tests.push_back(type_two_tests(result));
   tables.push_back(anova_table(kAnovaCaption, finding.tests.back(), result.table, true));
-  if (!result.table.balanced && data.factors.size() > 1) {
-    const auto other = anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeIII);
-    finding.tests.push_back(tests_of(other));
-    tables.push_back(anova_table("Analysis of variance (type III)", finding.tests.back(), other, false));
-    for (std::size_t t = 0; t < other.terms.size(); ++t) {
-      auto text =
-          type_disagreement(other.terms[t].name, result.table.terms[t].test, other.terms[t].test, options.alpha);
-      if (!text.empty()) finding.warnings.push_back(std::move(text));
-    }
-  }
   if (data.factors.size() == 1) tables.push_back(welch_table(data));
   name_methods(data, result, options, finding);
   if (auto means = raw_means_table(data, 1.0 - options.alpha, true)) tables.push_back(std::move(*means));
-  if (result.linear) {
-    add_marginal_results(result.linear->effects, options, data.factors.size() > 1, finding, tables);
-  } else {
-    finding.warnings.push_back("no estimated marginal means: " + result.linear.reason());
-  }
+  if (result.table.effects)
+    add_marginal_results(*result.table.effects, options, data.factors.size() > 1, finding, tables);
   for (auto& table : tables) {
     table.caption = about + table.caption;
     finding.tables.push_back(std::move(table));

@@ -49,9 +49,7 @@ std::string size_text(const Estimable<Interval>& eta_squared) {
 
 // "strategy and composition"
 std::string joined_names(const ModelData& data, std::size_t t) {
-  std::vector<std::string> names;
-  for (const auto factor : data.terms[t]) names.push_back(data.factors[factor].name);
-  return with_and(names);
+  return listed(data.terms[t], [&](std::size_t factor) { return data.factors[factor].name; });
 }
 
 // At the start of a sentence. Names of columns that are no words stay as they are.
@@ -62,8 +60,7 @@ std::string at_start(std::string text) {
   return text;
 }
 
-void add_cell_warnings(const ModelData& data, const ModelResult& result, double alpha,
-                       std::vector<std::string>& warnings) {
+void add_cell_warnings(const ModelData& data, double alpha, std::vector<std::string>& warnings) {
   const auto cells = drop_unused(all_cells(data));
   const auto groups = split_by(data.values, cells);
   std::size_t least = groups.front().size(), most = 0;
@@ -75,18 +72,12 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
     smallest = std::min(smallest, *standard_deviation(group));
     largest = std::max(largest, *standard_deviation(group));
   }
-  if (result.table.empty_cells > 0) {
-    warnings.push_back(empty_cells_text(result.table.empty_cells, data.observations));
-  } else if (least != most) {
-    warnings.push_back(fmt::format("the design is unbalanced (cells have {} to {} {}){}", least, most,
-                                   data.observations,
-                                   data.factors.size() > 1 ? ": type III tests are shown too, and raw means mix the "
-                                                             "effects of several factors"
-                                                           : ""));
-  }
+  if (least != most)
+    warnings.push_back(
+        fmt::format("the design is unbalanced (cells have {} to {} {})", least, most, data.observations));
   if (least < kFewPerCell)
     warnings.push_back(fmt::format("the smallest cell has {}, so F tests depend on normal residuals",
-                                   number_and_noun(least, data.observations.substr(0, data.observations.size() - 1))));
+                                   counted(least, data.observations.substr(0, data.observations.size() - 1))));
   const auto spread = brown_forsythe(data.values, cells);
   if (spread && spread->p < alpha && largest > kUnequalSpread * smallest) {
     warnings.push_back(fmt::format(
@@ -99,22 +90,18 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
 // The value that is furthest from what the model says of it, if chance hardly explains that: by its studentised
 // residual of the model that is fitted without it, with Bonferroni's correction for the search (R: car::outlierTest).
 void add_far_value(const ModelData& data, const ModelResult& result, std::vector<std::string>& warnings) {
-  const auto& residuals = result.table.residuals;
-  if (!result.linear || !result.linear->effects.residual_sd || residuals.empty()) return;
-  const auto& effects = result.linear->effects;
-  const auto& design = effects.design;
-  const auto columns = design.columns.size();
-  const double variance = std::pow(*effects.residual_sd, 2);
-  std::vector<double> leverages(design.counts.size(), 0.0);
-  for (std::size_t cell = 0; cell < leverages.size(); ++cell) {
-    const double* const row = &design.grid[cell * columns];
-    for (std::size_t i = 0; i < columns; ++i) {
-      for (std::size_t j = 0; j < columns; ++j)
-        leverages[cell] += row[i] * effects.covariance[i * columns + j] * row[j] / variance;
-    }
+  const auto& effects = result.table.effects;
+  if (!effects || !effects->residual_sd) return;
+  const auto& design = effects->design;
+  std::vector<double> leverages;
+  for (std::size_t cell = 0; cell < design.counts.size(); ++cell) {
+    std::vector<double> mean(design.counts.size(), 0.0);
+    mean[cell] = 1.0 / static_cast<double>(design.counts[cell]);
+    leverages.push_back(design.fitted(mean)[cell]);
   }
-  const auto df = static_cast<double>(result.linear->residual_df);
-  warn_of_far_value(data.values, residuals, leverages, design.cell_of, df, df * variance, warnings);
+  const auto df = static_cast<double>(result.table.residual_df);
+  warn_of_far_value(data.values, result.table.residuals, leverages, design.cell_of, df,
+                    df * std::pow(*effects->residual_sd, 2), warnings);
 }
 
 void add_shape_warnings(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
@@ -164,14 +151,13 @@ void warn_of_far_value(std::span<const double> values, std::span<const double> r
 }
 
 std::string test_text(const TestResult& test) {
-  std::string df;
-  for (const double value : test.df) df += (df.empty() ? "" : ", ") + degrees_text(value);
-  const auto brackets = df.empty() ? std::string{} : "(" + df + ")";
+  const auto brackets =
+      test.df.empty() ? "" : "(" + joined(test.df, ", ", [](double df) { return degrees_text(df); }) + ")";
   return fmt::format("{}{} = {:.2f}, {}", test.statistic_name, brackets, test.statistic, p_text(test.p));
 }
 
 std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<TestResult>& test,
-                          const Estimable<Interval>& eta_squared, const FixedEffects* means, double alpha) {
+                          const Estimable<Interval>& eta_squared, const FixedEffects& means, double alpha) {
   const auto& term = data.terms[t];
   if (!test)
     return fmt::format("The {} of {} cannot be tested: {}.", term.size() > 1 ? "interaction" : "effect",
@@ -186,7 +172,7 @@ std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<
   }
   const auto& factor = data.factors[term.front()];
   if (!found) return fmt::format("No effect of {} was found ({}).", factor.name, p);
-  const auto range = means == nullptr ? std::string{} : range_of_means(*means, factor.name);
+  const auto range = range_of_means(means, factor.name);
   const bool are_raw = data.factors.size() == 1 && data.groups.empty();
   return fmt::format("{} has {} effect ({}){}.", at_start(factor.name), size.empty() ? "an" : "a " + size, p,
                      range.empty() ? ""
@@ -194,34 +180,18 @@ std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<
                                    : ": estimated marginal means range " + range);
 }
 
-std::string empty_cells_text(std::size_t empty_cells, const std::string& observations) {
-  return fmt::format("{} of levels {} no {}, so type II and type III tests have different hypotheses",
-                     number_and_noun(empty_cells, "combination"), empty_cells == 1 ? "has" : "have", observations);
-}
-
-std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
-                              const Estimable<TestResult>& type_three, double alpha) {
-  if (!type_two || !type_three || (type_two->p < alpha) == (type_three->p < alpha)) return {};
-  return fmt::format(
-      "{}: tests of type II and type III disagree ({} and {}); marginal means and pairs correspond to type III", term,
-      p_text(type_two->p), p_text(type_three->p));
-}
-
 std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha) {
-  std::string text =
-      fmt::format("Analysis of variance of {} ({} {}).", data.response, data.values.size(), data.observations);
-  for (std::size_t t = 0; t < data.terms.size(); ++t) {
-    const auto& term = result.table.terms[t];
-    text += " " + term_sentence(data, t, term.test, result.eta_squared[t],
-                                result.linear ? &result.linear->effects : nullptr, alpha);
-  }
+  std::string text;
+  for (std::size_t t = 0; t < data.terms.size(); ++t)
+    text +=
+        " " + term_sentence(data, t, result.table.terms[t].test, result.eta_squared[t], *result.table.effects, alpha);
   return text;
 }
 
 std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha) {
   std::vector<std::string> warnings;
   if (data.factors.empty()) return warnings;
-  add_cell_warnings(data, result, alpha, warnings);
+  add_cell_warnings(data, alpha, warnings);
   add_shape_warnings(result, alpha, warnings);
   add_far_value(data, result, warnings);
   return warnings;

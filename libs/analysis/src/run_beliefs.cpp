@@ -94,7 +94,7 @@ Estimable<TestResult> test_dependence(const BeliefTeams& beliefs, const Factor& 
                                       const std::vector<double>& values) {
   const std::vector<Factor> factors{beliefs.belief, composition};
   const std::vector<std::vector<std::size_t>> terms{{0}, {1}, {0, 1}};
-  return anova(values, factors, terms, SumsOfSquares::kTypeII).terms.back().test;
+  return anova(values, factors, terms).terms.back().test;
 }
 
 void add_dependence(const Estimable<TestResult>& test, const AnalysisOptions& options, Finding& finding) {
@@ -121,10 +121,7 @@ void add_dependence(const Estimable<TestResult>& test, const AnalysisOptions& op
 
 Estimable<FixedEffects> effects_of(const ModelData& model, double alpha) {
   using Result = Estimable<FixedEffects>;
-  if (model.groups.empty()) {
-    const auto fit = fit_linear_model(model.values, model.factors, model.terms);
-    return fit ? Result{fit->effects} : Result::impossible(fit.reason());
-  }
+  if (model.groups.empty()) return anova(model.values, model.factors, model.terms).effects;
   const auto fit = fit_nested_model(model.values, model.factors, model.terms, model.groups, 1.0 - alpha);
   return fit ? Result{fit->fixed} : Result::impossible(fit.reason());
 }
@@ -141,12 +138,12 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
                   .response = std::string{outcome.name},
                   .question = fmt::format("Do demonstrations chosen for the team's belief ({}) lead to {} than those "
                                           "chosen for one member's belief ({})?",
-                                          with_and(found->team), outcome.better, with_and(found->individual)),
+                                          listed(found->team), outcome.better, listed(found->individual)),
                   .model = formula_text(model)};
-  finding.sentence = fmt::format(
-      "Planned contrast of {} ({} teams{}).", outcome.name, model.values.size(),
-      model.groups.empty() ? std::string{}
-                           : " of " + number_and_noun(model.groups.front().levels.size(), "group") + " of people");
+  finding.sentence =
+      fmt::format("Planned contrast of {} ({} teams{}).", outcome.name, model.values.size(),
+                  model.groups.empty() ? std::string{}
+                                       : " of " + counted(model.groups.front().levels.size(), "group") + " of people");
   if (!fit) {
     finding.sentence += " It cannot be estimated: " + fit.reason() + ".";
     return finding;

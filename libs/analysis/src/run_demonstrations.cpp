@@ -119,7 +119,7 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
     if (complete.size() < part_teams.size()) {
       finding.warnings.push_back(
           fmt::format("component {}: {} left out whose people were not shown it for two periods under every strategy",
-                      components.levels[level], number_and_noun(part_teams.size() - complete.size(), "team")));
+                      components.levels[level], counted(part_teams.size() - complete.size(), "team")));
       part_teams = selected(part_teams, complete);
       values = selected(values, complete);
       if (part_teams.empty()) continue;

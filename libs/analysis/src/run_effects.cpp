@@ -38,7 +38,7 @@ void add_as_published(const ModelData& model, const AnalysisOptions& options, Fi
       "analysis of variance as published, which takes all teams as independent, misses small differences between "
       "strategies and finds differences between compositions too often",
       model.values.size(), model.groups.front().levels.size()));
-  const auto table = anova(model.values, model.factors, model.terms, SumsOfSquares::kTypeII);
+  const auto table = anova(model.values, model.factors, model.terms);
   auto family = tests_of(table);
   for (std::size_t t = 0; t < table.terms.size(); ++t) {
     auto& test = family.tests[t];
@@ -55,9 +55,8 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   const auto model = team_model(teams, group_teams(teams), response, values);
   if (model.terms.empty()) return std::nullopt;
   auto finding = analyze_model(model, options);
-  std::vector<std::string> names;
-  for (const auto& factor : model.factors) names.push_back(factor.name);
-  finding.topic = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names);
+  finding.topic =
+      "Effect" + std::string{model.factors.size() > 1 ? "s" : ""} + " of " + listed(model.factors, &Factor::name);
   const auto& outcome = outcome_named(response);
   finding.response = outcome.name;
   finding.question = fmt::format("{} {} depend on how a group is taught and who is in it?",
@@ -119,11 +118,10 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
                       : found.empty() ? "no effect of strategy was found in any of them."
                                       : "strategy has an effect in " + found + ".");
   if (!tested.empty()) {
-    add_method(
-        finding,
-        {std::string{people.empty() ? "one-way analyses of variance" : "mixed models of each composition"} +
-         (is_corrected ? fmt::format(" with {} correction for {}", name, number_and_noun(tested.size(), "composition"))
-                       : std::string{})});
+    add_method(finding,
+               {std::string{people.empty() ? "one-way analyses of variance" : "mixed models of each composition"} +
+                (is_corrected ? fmt::format(" with {} correction for {}", name, counted(tested.size(), "composition"))
+                              : std::string{})});
   }
   if (!tested.empty()) add_method(finding, eta_squared_method(options.alpha));
   if (any_ranks)

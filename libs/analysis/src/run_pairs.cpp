@@ -199,10 +199,10 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
   }
   finding.sentence = fmt::format(
       "Every strategy taught the same {} of simulated people, so strategies are compared within groups: {}.",
-      number_and_noun(blocks.values.size(), "group"),
+      counted(blocks.values.size(), "group"),
       found.empty() ? "no difference between two strategies was found" : "these differ: " + found);
   if (tested > 0)
-    add_method(finding, {fmt::format("paired t tests with Holm correction for {}", number_and_noun(tested, "pair"))});
+    add_method(finding, {fmt::format("paired t tests with Holm correction for {}", counted(tested, "pair"))});
   auto columns = paired_columns("pair");
   columns.push_back(show(&ComparisonResult::p, "p-value", Kind::kP));
   columns.push_back(show(&ComparisonResult::corrected_p, "corrected p-value", Kind::kP));
@@ -228,7 +228,7 @@ void add_same_people(const TeamDifference& difference, const AnalysisOptions& op
   ComparisonFamily family{.kind = ComparisonFamily::Kind::kAlone};
   family.comparisons.push_back(paired_comparison("together - alone", difference.n, test, 1.0 - options.alpha));
   if (test) {
-    finding.sentence += fmt::format(". Within {} of the same people {} ({}).", number_and_noun(difference.n, "group"),
+    finding.sentence += fmt::format(". Within {} of the same people {} ({}).", counted(difference.n, "group"),
                                     test->test.p < options.alpha
                                         ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
                                         : "no difference was found",
@@ -314,8 +314,8 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
                   .model = response + " ~ taught together or alone"};
   finding.sentence = fmt::format(
       "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", outcome.name,
-      outcome.is_plural ? "were" : "was", formatted(mean(group), Kind::kNumber), number_and_noun(group.size(), "group"),
-      formatted(mean(alone), Kind::kNumber), number_and_noun(alone.size(), "group"));
+      outcome.is_plural ? "were" : "was", formatted(mean(group), Kind::kNumber), counted(group.size(), "group"),
+      formatted(mean(alone), Kind::kNumber), counted(alone.size(), "group"));
   if (const auto same = difference_of_teams(together, apart, true, 1.0 - options.alpha); same.n > 0) {
     add_same_people(same, options, finding);
   } else {

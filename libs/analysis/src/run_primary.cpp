@@ -57,7 +57,7 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
     if (!model.groups.empty())
       add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
     const auto estimate = contrast_estimate(*fit, hypothesis, 1.0 - options.alpha);
-    result.estimate = known(estimate.estimate);
+    result.estimate = estimate.estimate;
     if (!estimate.inference) {
       finding.warnings.push_back(fmt::format("{}: {} cannot be tested: {}", hypothesis.response, hypothesis.name,
                                              estimate.inference.reason()));
@@ -88,10 +88,9 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
                          is_family ? "corrected " : "", p_text(p),
                          p < options.alpha ? "there is a difference" : "no difference was found");
   }
-  finding.sentence =
-      fmt::format("{} of {} planned as {} of the study ({} teams) {} found{}.{}", shown_to_differ,
-                  number_and_noun(hypotheses.size(), "difference"), is_family ? "hypotheses" : "the hypothesis",
-                  rows.size(), shown_to_differ == 1 ? "was" : "were", how, found);
+  finding.sentence = fmt::format("{} of {} planned as {} of the study ({} teams) {} found{}.{}", shown_to_differ,
+                                 counted(hypotheses.size(), "difference"), is_family ? "hypotheses" : "the hypothesis",
+                                 rows.size(), shown_to_differ == 1 ? "was" : "were", how, found);
   add_method(finding, {"planned contrasts of estimated marginal means" + how});
   finding.tables.push_back(shown<ComparisonResult>(
       "Planned contrasts that are the hypotheses of the study" + how, family.comparisons,

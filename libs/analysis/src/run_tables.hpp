@@ -8,9 +8,9 @@
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/dataset.hpp"
-#include "kith/core/baseline.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/study/outcomes.hpp"
+#include "kith/teaching/strategy.hpp"
 #include "model.hpp"
 
 namespace kith {

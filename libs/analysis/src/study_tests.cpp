@@ -254,7 +254,7 @@ std::array<double, 3> StudyTests::two_way(const EffectData& data, const Draw& dr
   }
   std::array<double, 3> p{1.0, 1.0, 1.0};
   if (terms_.empty()) return p;
-  const auto table = anova(values, factors_, terms_, SumsOfSquares::kTypeII);
+  const auto table = anova(values, factors_, terms_);
   for (std::size_t t = 0; t < terms_.size(); ++t) {
     if (table.terms[t].test) p[term_kinds_[t]] = table.terms[t].test->p;
   }

@@ -206,7 +206,7 @@ std::optional<Analysis> analyze_balanced_table(const Dataset& data, const ModelQ
   model.values = rows.required_numbers(names.front());
   check_sizes(rows, names.front());
   check_comparisons(model.factors, options);
-  if (!anova(model.values, model.factors, model.terms, SumsOfSquares::kTypeII).balanced) return std::nullopt;
+  if (!anova(model.values, model.factors, model.terms).balanced) return std::nullopt;
   auto finding = analyze_model(model, options);
   finding.results = results_paragraph(finding, options.alpha);
   return Analysis{data.file(), {}, {std::move(finding)}, {}};

@@ -63,32 +63,10 @@ void expect_relative(double actual, double expected, double tolerance = 1e-10) {
   EXPECT_NEAR(actual, expected, tolerance * std::abs(expected));
 }
 
-TEST(Anova, TypeIIAndTypeIIIAgreeWhenBalanced) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const auto design = balanced_design(seed);
-    const auto two = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeII);
-    const auto three = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeIII);
-    EXPECT_TRUE(two.balanced);
-    for (std::size_t t = 0; t < 3; ++t) {
-      expect_relative(two.terms[t].sum_of_squares, three.terms[t].sum_of_squares);
-      expect_relative(two.terms[t].test->p, three.terms[t].test->p);
-    }
-  }
-}
-
-TEST(Anova, TypeIIAndTypeIIIDifferForMainEffectsWhenUnbalanced) {
-  const auto design = unbalanced_design(1);
-  const auto two = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeII);
-  const auto three = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeIII);
-  EXPECT_FALSE(two.balanced);
-  EXPECT_GT(std::abs(two.terms[0].sum_of_squares - three.terms[0].sum_of_squares), 1e-3);
-  expect_relative(two.terms[2].sum_of_squares, three.terms[2].sum_of_squares);
-}
-
 TEST(Anova, SumsOfSquaresAddUpWhenBalanced) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto design = balanced_design(seed);
-    const auto table = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeII);
+    const auto table = anova(design.response, design.factors, kCrossed);
     double mean = 0.0;
     for (const double y : design.response) mean += y / static_cast<double>(design.response.size());
     double total = 0.0;
@@ -100,60 +78,57 @@ TEST(Anova, SumsOfSquaresAddUpWhenBalanced) {
 }
 
 TEST(Anova, FIsTheSameForEveryAffineImageOfTheResponse) {
-  const auto design = unbalanced_design(3);
-  for (const auto type : {SumsOfSquares::kTypeII, SumsOfSquares::kTypeIII}) {
-    const auto table = anova(design.response, design.factors, kCrossed, type);
-    for (const double scale : {-3.0, 1e-150, 1e150, 1e300, 1e-300}) {
-      for (const double offset : {0.0, 2.0, -1e3}) {
-        auto image = design.response;
-        for (auto& y : image) y = scale * (y + offset);
-        const auto other = anova(image, design.factors, kCrossed, type);
-        for (std::size_t t = 0; t < 3; ++t) {
-          expect_relative(other.terms[t].test->statistic, table.terms[t].test->statistic, 1e-9);
-          expect_relative(*other.terms[t].partial_eta_squared, *table.terms[t].partial_eta_squared, 1e-9);
-        }
+  const auto design = balanced_design(3);
+  const auto table = anova(design.response, design.factors, kCrossed);
+  for (const double scale : {-3.0, 1e-150, 1e150, 1e300, 1e-300}) {
+    for (const double offset : {0.0, 2.0, -1e3}) {
+      auto image = design.response;
+      for (auto& y : image) y = scale * (y + offset);
+      const auto other = anova(image, design.factors, kCrossed);
+      for (std::size_t t = 0; t < 3; ++t) {
+        expect_relative(other.terms[t].test->statistic, table.terms[t].test->statistic, 1e-9);
+        expect_relative(*other.terms[t].partial_eta_squared, *table.terms[t].partial_eta_squared, 1e-9);
       }
     }
   }
 }
 
 TEST(Anova, OrderOfObservationsAndNamesOfLevelsDoNotMatter) {
-  const auto design = unbalanced_design(4);
-  const auto table = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeIII);
+  const auto design = balanced_design(4);
+  const auto table = anova(design.response, design.factors, kCrossed);
   auto turned = design;
   std::reverse(turned.response.begin(), turned.response.end());
   for (auto& factor : turned.factors) {
     std::reverse(factor.codes.begin(), factor.codes.end());
     for (auto& code : factor.codes) code = factor.levels.size() - 1 - code;
   }
-  const auto other = anova(turned.response, turned.factors, kCrossed, SumsOfSquares::kTypeIII);
+  const auto other = anova(turned.response, turned.factors, kCrossed);
   for (std::size_t t = 0; t < 3; ++t) expect_relative(other.terms[t].test->statistic, table.terms[t].test->statistic);
 }
 
 TEST(Anova, LevelsAndFactorsThatNobodyHasOrNamesChangeNothing) {
-  const auto design = unbalanced_design(5);
-  const auto table = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeIII);
+  const auto design = balanced_design(5);
+  const auto table = anova(design.response, design.factors, kCrossed);
   auto more = design;
   more.factors[0].levels.insert(more.factors[0].levels.begin(), "nobody's");
   for (auto& code : more.factors[0].codes) ++code;
   more.factors.push_back(factor_with("unnamed", 2, std::vector<std::size_t>(design.response.size(), 1)));
-  const auto other = anova(more.response, more.factors, kCrossed, SumsOfSquares::kTypeIII);
-  EXPECT_EQ(other.empty_cells, 0u);
+  const auto other = anova(more.response, more.factors, kCrossed);
   EXPECT_EQ(other.residual_df, table.residual_df);
   for (std::size_t t = 0; t < 3; ++t) expect_relative(other.terms[t].test->statistic, table.terms[t].test->statistic);
 }
 
 TEST(Anova, OneFactorIsTheOneWayTest) {
   const auto design = unbalanced_design(6);
-  const auto table = anova(design.response, design.factors, Terms{{0}}, SumsOfSquares::kTypeII);
+  const auto table = anova(design.response, std::vector{design.factors[0]}, Terms{{0}});
   const auto test = one_way_anova(design.response, design.factors[0]);
   expect_relative(table.terms[0].test->statistic, test->statistic);
   expect_relative(table.terms[0].test->p, test->p);
 }
 
 TEST(Anova, ResidualsAreOrthogonalToTheModelAndHaveItsSumOfSquares) {
-  const auto design = unbalanced_design(7);
-  const auto table = anova(design.response, design.factors, Terms{{0}, {1}}, SumsOfSquares::kTypeII);
+  const auto design = balanced_design(7);
+  const auto table = anova(design.response, design.factors, Terms{{0}, {1}});
   double squares = 0.0;
   std::vector<double> sums(3, 0.0);
   for (std::size_t i = 0; i < table.residuals.size(); ++i) {
@@ -164,13 +139,12 @@ TEST(Anova, ResidualsAreOrthogonalToTheModelAndHaveItsSumOfSquares) {
   for (const double sum : sums) EXPECT_NEAR(sum, 0.0, 1e-12);
 }
 
-TEST(Anova, CountsEmptyCells) {
-  const auto design = make_design(
-      3, 3, [](auto i, auto j) { return i == j ? 0u : 3u; }, 8);
-  const auto table = anova(design.response, design.factors, Terms{{0}, {1}}, SumsOfSquares::kTypeII);
-  EXPECT_EQ(table.empty_cells, 3u);
-  EXPECT_FALSE(table.balanced);
-  EXPECT_TRUE(table.terms[0].test);
+TEST(Anova, RefusesUnbalancedCellsOfSeveralFactors) {
+  const auto design = unbalanced_design(8);
+  const auto table = anova(design.response, design.factors, Terms{{0}, {1}});
+  EXPECT_THAT(table.terms[1].test.reason(), ::testing::HasSubstr("the design is unbalanced"));
+  EXPECT_EQ(table.effects.reason(), table.terms[1].test.reason());
+  EXPECT_EQ(table.terms[1].name, "b");
 }
 
 // The same from formulas for a 2 x 2 table, by hand: cell means 1, 3, 2, 8; spread 1 around each.
@@ -178,7 +152,7 @@ TEST(Anova, AHandComputedTable) {
   const std::vector<double> response{0, 2, 2, 4, 1, 3, 7, 9};
   const std::vector<Factor> factors{factor_with("a", 2, {0, 0, 0, 0, 1, 1, 1, 1}),
                                     factor_with("b", 2, {0, 0, 1, 1, 0, 0, 1, 1})};
-  const auto table = anova(response, factors, kCrossed, SumsOfSquares::kTypeIII);
+  const auto table = anova(response, factors, kCrossed);
   EXPECT_DOUBLE_EQ(table.terms[0].sum_of_squares, 18.0);
   EXPECT_DOUBLE_EQ(table.terms[1].sum_of_squares, 32.0);
   EXPECT_DOUBLE_EQ(table.terms[2].sum_of_squares, 8.0);
@@ -190,7 +164,7 @@ TEST(Anova, AHandComputedTable) {
 }
 
 std::string reason_of_first(const Design& design, const Terms& terms = kCrossed) {
-  const auto table = anova(design.response, design.factors, terms, SumsOfSquares::kTypeIII);
+  const auto table = anova(design.response, design.factors, terms);
   EXPECT_EQ(table.terms[0].test.reason(), table.terms[0].partial_eta_squared.reason());
   return table.terms[0].test.reason();
 }
@@ -215,8 +189,7 @@ TEST(Anova, SaysWhyNothingCanBeEstimated) {
 
   const auto nested = make_design(
       2, 2, [](auto i, auto j) { return i == j ? 3u : 0u; }, 12);
-  EXPECT_THAT(reason_of_first(nested), ::testing::HasSubstr("combinations of levels without observations"));
-  EXPECT_EQ(reason_of_first({nested.factors, nested.response}, {{0}}), "");
+  EXPECT_THAT(reason_of_first(nested), ::testing::HasSubstr("combinations of levels have no observations"));
 
   EXPECT_EQ(reason_of_first({{factor_with("a", 2, {})}, {}}, {{0}}), "no observations");
 }
@@ -230,24 +203,16 @@ TEST(Anova, TakesRoundingErrorsForNoSpread) {
   EXPECT_EQ(reason_of_first(far, {{0}}), "no spread within the cells");
 }
 
-TEST(Anova, RefusesTooManyLevelsInWords) {
-  std::vector<std::size_t> codes(5000);
-  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = i / 2;
-  const Design design{{factor_with("a", 2500, codes)}, std::vector<double>(5000, 1.0)};
-  EXPECT_THAT(reason_of_first(design, {{0}}), ::testing::HasSubstr("too many"));
-}
-
 TEST(Anova, RefusesBrokenPreconditions) {
   const auto design = balanced_design(13);
-  const auto type = SumsOfSquares::kTypeII;
   auto response = design.response;
-  EXPECT_THROW((void)anova(response, design.factors, Terms{{2}}, type), std::invalid_argument);
-  EXPECT_THROW((void)anova(response, design.factors, Terms{{}}, type), std::invalid_argument);
+  EXPECT_THROW((void)anova(response, design.factors, Terms{{2}}), std::invalid_argument);
+  EXPECT_THROW((void)anova(response, design.factors, Terms{{}}), std::invalid_argument);
   response.pop_back();
-  EXPECT_THROW((void)anova(response, design.factors, kCrossed, type), std::invalid_argument);
+  EXPECT_THROW((void)anova(response, design.factors, kCrossed), std::invalid_argument);
   response.push_back(std::numeric_limits<double>::infinity());
-  EXPECT_THROW((void)anova(response, design.factors, kCrossed, type), std::invalid_argument);
-  EXPECT_THROW((void)anova(std::vector<double>{1, 2}, std::vector{factor_with("a", 2, {0, 2})}, Terms{{0}}, type),
+  EXPECT_THROW((void)anova(response, design.factors, kCrossed), std::invalid_argument);
+  EXPECT_THROW((void)anova(std::vector<double>{1, 2}, std::vector{factor_with("a", 2, {0, 2})}, Terms{{0}}),
                std::invalid_argument);
 }
 
@@ -255,8 +220,8 @@ TEST(Anova, RefusesBrokenPreconditions) {
 TEST(Anova, RejectsATrueHypothesisAsOftenAsStated) {
   int rejected = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const auto design = unbalanced_design(1000 + seed);
-    const auto table = anova(design.response, design.factors, kCrossed, SumsOfSquares::kTypeIII);
+    const auto design = balanced_design(1000 + seed);
+    const auto table = anova(design.response, design.factors, kCrossed);
     rejected += table.terms[1].test->p < 0.05 ? 1 : 0;
   }
   EXPECT_NEAR(rejected, 20, 4 * 4.4);
@@ -314,30 +279,6 @@ TEST(Normality, IsSeenInNormalNumbersAndNotInExponentialOnes) {
   EXPECT_LT(check_normality(exponential)->test.p, 1e-6);
   EXPECT_EQ(check_normality(std::vector<double>(9, 0.3)).reason(), "all residuals are equal");
   EXPECT_EQ(check_normality(std::vector<double>{1, 2}).reason(), "fewer than three residuals");
-}
-
-// Eight factors of four levels with all interactions: 255 terms, each with matrices of its own.
-TEST(Anova, SaysThatManyTermsOverManyCombinationsAreTooMany) {
-  constexpr std::size_t kRows = 300;
-  std::vector<double> values;
-  std::vector<Factor> factors;
-  for (std::size_t k = 0; k < 8; ++k) {
-    std::vector<std::string> levels;
-    for (std::size_t i = 0; i < kRows; ++i) levels.push_back(std::to_string(i * (2 * k + 7) * 2654435761u / 8192 % 4));
-    factors.push_back(make_factor("f" + std::to_string(k), levels));
-  }
-  for (std::size_t i = 0; i < kRows; ++i) values.push_back(static_cast<double>(i * 7919 % 97));
-  std::vector<std::vector<std::size_t>> terms;
-  for (std::size_t mask = 1; mask < 256; ++mask) {
-    auto& term = terms.emplace_back();
-    for (std::size_t k = 0; k < 8; ++k) {
-      if ((mask >> k & 1U) != 0) term.push_back(k);
-    }
-  }
-  const auto table = anova(values, factors, terms, SumsOfSquares::kTypeII);
-  ASSERT_EQ(table.terms.size(), 255u);
-  EXPECT_FALSE(table.terms.front().test);
-  EXPECT_NE(table.terms.front().test.reason().find("too many"), std::string::npos) << table.terms.front().test.reason();
 }
 
 }  // namespace

@@ -49,11 +49,11 @@ TEST(NestedModel, EqualsTheMixedModelOfABalancedDesign) {
   EXPECT_NEAR(model.groups.at(0).variance, 5.027778, 1e-5);
   EXPECT_NEAR(model.residual_variance, 1.291667, 1e-5);
   EXPECT_NEAR(model.groups.at(0).test->statistic, 13.339628, 1e-5);
-  const auto means = marginal_means(model.fixed, std::vector<std::size_t>{0}).groups.at(0);
-  EXPECT_NEAR(*means.means.at(1).estimate, 7.5, 1e-12);
+  const auto means = marginal_means(model.fixed, 0).at(0);
+  EXPECT_NEAR(means.means.at(1).estimate, 7.5, 1e-12);
   EXPECT_NEAR(means.means.at(1).inference->standard_error, 0.8887804, 1e-6);
   EXPECT_NEAR(means.means.at(1).inference->df, 7.94, 0.005);
-  const auto pair = estimate_contrasts(model.fixed, means, pairwise_contrasts(means), Adjustment::kNone).at(0);
+  const auto pair = estimate_pairs(model.fixed, means).at(0);
   EXPECT_NEAR(pair.inference->standard_error, 0.5682576, 1e-6);
   EXPECT_NEAR(pair.inference->df, 12.0, 1e-9);
 }
@@ -100,6 +100,7 @@ TEST(NestedModel, TestsEveryTermInItsStratum) {
   EXPECT_NEAR(model.tests.at(0).test->df.at(1), 11.0, 7.0);
   EXPECT_GE(model.groups.at(0).variance, 0.0);
   EXPECT_GE(model.groups.at(1).variance, 0.0);
+  EXPECT_NEAR(model.groups.at(1).design_effect, 1.0 + model.groups.at(1).intraclass_correlation, 1e-15);
   EXPECT_FALSE(fit_nested_model(y, std::vector{a, setting}, terms, std::vector{within, person}));
 }
 

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "atlas_builder.hpp"
+#include "kith/core/text.hpp"
 #include "people_regret.hpp"
 
 namespace kith {
@@ -178,12 +179,8 @@ std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeCom
 }
 
 std::string masked_names(const Domain& domain, const KnowledgeComponent& component) {
-  std::string text;
-  for (std::size_t i = 0; i < component.masked.size(); ++i) {
-    if (i > 0) text += i + 1 == component.masked.size() ? " or " : ", ";
-    text += domain.feature_names()[component.masked[i]];
-  }
-  return text;
+  return listed(
+      component.masked, [&](std::size_t k) { return domain.feature_names()[k]; }, " or ");
 }
 
 }  // namespace kith

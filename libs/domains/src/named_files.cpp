@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "kith/core/text.hpp"
 #include "kith/domains/grey_image.hpp"
 #include "kith/domains/model_formats.hpp"
 
@@ -12,14 +13,6 @@ namespace kith::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-// ".csv, .json or .tra"
-std::string list_of(const std::vector<std::string_view>& endings) {
-  std::string text;
-  for (std::size_t i = 0; i < endings.size(); ++i)
-    text.append(i == 0 ? "" : i + 1 == endings.size() ? " or " : ", ").append(endings[i]);
-  return text;
-}
 
 }  // namespace
 
@@ -85,7 +78,7 @@ bool NamedFiles::check_name(const std::string& name, const TomlPlace& place, con
   const auto& endings = kind.endings;
   const std::string ending = is_image_file(name) ? ".pgm" : path.extension().string();
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return true;
-  report_.error("E0232", place, refusal, "its name ends in " + list_of(endings));
+  report_.error("E0232", place, refusal, "its name ends in " + listed(endings, {}, " or "));
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "exact_vector.hpp"
+#include "kith/core/text.hpp"
 #include "kith/geometry/cone.hpp"
 #include "wording.hpp"
 
@@ -167,8 +168,7 @@ class RewardReader {
   void check_prior_leaves_room(const TomlPlace& place) {
     const auto clash = irreducible_conflict(reward_.prior);
     if (clash.empty()) return;
-    std::string text;
-    for (const HalfSpace& half_space : clash) text += (text.empty() ? "" : " and ") + to_string(half_space.normal());
+    const auto text = joined(clash, " and ", [](const HalfSpace& one) { return to_string(one.normal()); });
     report_.infeasible("E0333", place, "the prior leaves no room for weights: " + text + " clash");
   }
 

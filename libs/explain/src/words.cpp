@@ -101,14 +101,6 @@ std::string compared(const Side& more, const Side& less, bool even) {
 
 }  // namespace
 
-std::string listed(const std::vector<std::string>& things) {
-  std::string text;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == things.size() ? " and " : ", ") + things[i];
-  }
-  return text;
-}
-
 std::string times(const Wording& wording, std::int64_t n) {
   return n == 1 ? wording.one : several(wording.many, n, false);
 }
@@ -425,10 +417,6 @@ std::string counts_text(const Domain& domain, const IntegerVector& counts) {
 
 double return_of(const Domain& domain, const IntegerVector& counts) {
   return domain.weights().return_of(counts) / static_cast<double>(domain.count_scale());
-}
-
-std::string counted(std::size_t n, const std::string& noun) {
-  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
 }  // namespace kith

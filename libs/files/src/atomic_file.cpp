@@ -204,11 +204,11 @@ void require_regular_file(int descriptor, const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path, Readable what) {
-  const int at_once = what == Readable::kRegularFile ? O_NONBLOCK | O_NOCTTY : 0;  // else a pipe waits for a writer
-  const Descriptor file{uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC | at_once); })};
+std::string read_file(const std::filesystem::path& path) {
+  constexpr int kAtOnce = O_NONBLOCK | O_NOCTTY;  // else a pipe waits for a writer
+  const Descriptor file{uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC | kAtOnce); })};
   if (file.value() < 0) fail("read", path, errno);
-  if (what == Readable::kRegularFile) require_regular_file(file.value(), path);
+  require_regular_file(file.value(), path);
   std::string content;
   std::array<char, 64 * 1024> piece;
   for (;;) {

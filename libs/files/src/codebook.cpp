@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kith/core/error.hpp"
+#include "kith/core/text.hpp"
 
 namespace kith {
 namespace {
@@ -15,12 +16,12 @@ namespace {
 template <typename Value, std::size_t n>
 Value value_named(const std::string& name, const std::array<Value, n>& values, const std::string& file,
                   const std::string& key) {
-  std::string known;
+  const auto word = [](Value value) { return to_string(value); };
   for (const auto value : values) {
-    if (to_string(value) == name) return value;
-    known += (known.empty() ? "" : ", ") + std::string{to_string(value)};
+    if (word(value) == name) return value;
   }
-  refuse_codebook(file, "unknown " + key + " '" + name + "' of a column", "a " + key + " is one of " + known);
+  refuse_codebook(file, "unknown " + key + " '" + name + "' of a column",
+                  "a " + key + " is one of " + joined(values, ", ", word));
 }
 
 Column column_of(const nlohmann::json& entry, const std::string& file) {

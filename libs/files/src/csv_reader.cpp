@@ -13,6 +13,7 @@
 #include "csv_records.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/memory.hpp"
+#include "kith/core/text.hpp"
 #include "kith/files/table_text.hpp"
 
 namespace kith {
@@ -46,7 +47,7 @@ std::size_t sequence_length(std::string_view text) {
 }
 
 // A cell as messages show it, cut after 40 bytes or a little less. @pre is_text(text).
-std::string in_quotes(std::string_view text) {
+std::string shown_in_quotes(std::string_view text) {
   std::size_t shown = 0;
   while (shown < text.size() && shown < 37) shown += sequence_length(text.substr(shown));
   std::string result{'"'};
@@ -81,7 +82,7 @@ Parsed parse_number(const std::string& text, const Column& column, const std::st
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = end == text.data() + text.size();
-  const std::string message = in_quotes(text) + " in column \"" + column.name + "\" is ";
+  const std::string message = shown_in_quotes(text) + " in column \"" + column.name + "\" is ";
   if (error == std::errc::result_out_of_range && whole) {
     return {.fault = Fault{"E0510", message + "out of the range of a number", "use a smaller number"}};
   }
@@ -111,8 +112,9 @@ Parsed parse_cell(const std::optional<std::string>& field, const Column& column,
       return parse_number<double>(separator == ',' ? *field : with_decimal_point(*field), column, "0.5");
     case ColumnType::kBoolean:
       if (const auto truth = truth_of(*field)) return {.cell = *truth};
-      return {.fault = Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
-                             "write true or false"}};
+      return {.fault =
+                  Fault{"E0506", shown_in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
+                        "write true or false"}};
   }
   return {};
 }
@@ -153,11 +155,7 @@ class Reader {
   }
 
  private:
-  [[nodiscard]] std::string names() const {
-    std::string list;
-    for (const Column& column : columns_) list += (list.empty() ? "" : ",") + column.name;
-    return list;
-  }
+  [[nodiscard]] std::string names() const { return joined(columns_, ",", &Column::name); }
 
   void report(const detail::CsvRecord& record, std::size_t field, const Fault& fault) {
     const detail::CsvPlace place = detail::locate(record.text, field, record.separator);
@@ -199,7 +197,7 @@ class Reader {
       }
       auto& source = source_[column->second];
       if (source != record.fields.size()) {
-        report(record, f, {"E0504", "column " + in_quotes(name) + " occurs twice", "remove one of them"});
+        report(record, f, {"E0504", "column " + shown_in_quotes(name) + " occurs twice", "remove one of them"});
       }
       source = f;
     }
@@ -215,14 +213,11 @@ class Reader {
   [[nodiscard]] std::string missing_hint(const detail::CsvRecord& record, const Column& missing) const {
     if (others_ == OtherColumns::kReject) return "the columns are " + names();
     std::vector<std::string> found;
-    std::string list;
     for (const auto& field : record.fields) {
-      if (!field || !is_text(*field)) continue;
-      found.push_back(*field);
-      list += (list.empty() ? "" : ", ") + *field;
+      if (field && is_text(*field)) found.push_back(*field);
     }
     const auto nearest = nearest_word(missing.name, found);
-    return nearest.empty() ? "the file has " + list : "did you mean " + nearest + "?";
+    return nearest.empty() ? "the file has " + joined(found) : "did you mean " + nearest + "?";
   }
 
   void report_unknown(const detail::CsvRecord& record, std::size_t field, const std::string& name) {
@@ -234,7 +229,7 @@ class Reader {
     for (const Column& column : columns_) known.push_back(column.name);
     const std::string nearest = nearest_word(name, known);
     report(record, field,
-           {"E0503", "unknown column " + in_quotes(name),
+           {"E0503", "unknown column " + shown_in_quotes(name),
             nearest.empty() ? "remove it; the columns are " + names() : "did you mean " + nearest + "?"});
   }
 
@@ -330,7 +325,7 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
       } else if (!is_text(name)) {
         report("E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8");
       } else if (!names.insert(name).second) {
-        report("E0504", "column " + in_quotes(name) + " occurs twice", "remove one of them");
+        report("E0504", "column " + shown_in_quotes(name) + " occurs twice", "remove one of them");
       }
       columns.push_back({.name = name});
     }

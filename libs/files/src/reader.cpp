@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/core/text.hpp"
+
 namespace kith {
 namespace {
 
@@ -34,8 +36,6 @@ std::string describe(const IntegerRange& range) {
   if (range.min != any.min && range.max != any.max) return low + " and " + high;
   return range.min != any.min ? low : high;
 }
-
-std::string quoted(std::string_view key) { return std::string{"'"}.append(key).append("'"); }
 
 }  // namespace
 
@@ -133,33 +133,33 @@ const TomlValue* TomlReader::value(std::string_view key, Presence presence) {
 
 std::optional<bool> TomlReader::boolean(std::string_view key, Presence presence) {
   const TomlValue* v = value(key, presence);
-  return v == nullptr ? std::nullopt : read_boolean(*v, quoted(key), report_);
+  return v == nullptr ? std::nullopt : read_boolean(*v, in_quotes(key), report_);
 }
 
 std::optional<std::string> TomlReader::string(std::string_view key, Presence presence) {
   const TomlValue* v = value(key, presence);
-  return v == nullptr ? std::nullopt : read_string(*v, quoted(key), report_);
+  return v == nullptr ? std::nullopt : read_string(*v, in_quotes(key), report_);
 }
 
 std::optional<std::int64_t> TomlReader::integer(std::string_view key, Presence presence, const IntegerRange& range) {
   const TomlValue* v = value(key, presence);
-  return v == nullptr ? std::nullopt : read_integer(*v, quoted(key), range, report_);
+  return v == nullptr ? std::nullopt : read_integer(*v, in_quotes(key), range, report_);
 }
 
 std::optional<double> TomlReader::real(std::string_view key, Presence presence, const RealRange& range) {
   const TomlValue* v = value(key, presence);
-  return v == nullptr ? std::nullopt : read_real(*v, quoted(key), range, report_);
+  return v == nullptr ? std::nullopt : read_real(*v, in_quotes(key), range, report_);
 }
 
 std::optional<std::size_t> TomlReader::word(std::string_view key, Presence presence,
                                             const std::vector<std::string>& allowed) {
   const TomlValue* v = value(key, presence);
-  return v == nullptr ? std::nullopt : read_word(*v, quoted(key), allowed, report_);
+  return v == nullptr ? std::nullopt : read_word(*v, in_quotes(key), allowed, report_);
 }
 
 const TomlArray* TomlReader::array(std::string_view key, Presence presence) {
   const TomlValue* v = value(key, presence);
-  return v == nullptr ? nullptr : read_array(*v, quoted(key), report_);
+  return v == nullptr ? nullptr : read_array(*v, in_quotes(key), report_);
 }
 
 std::optional<std::vector<std::string>> TomlReader::strings(std::string_view key, Presence presence) {
@@ -167,7 +167,7 @@ std::optional<std::vector<std::string>> TomlReader::strings(std::string_view key
   if (elements == nullptr) return std::nullopt;
   std::vector<std::string> strings;
   for (const TomlValue& element : *elements) {
-    auto s = read_string(element, "every element of " + quoted(key), report_);
+    auto s = read_string(element, "every element of " + in_quotes(key), report_);
     if (s) strings.push_back(*std::move(s));
   }
   if (strings.size() != elements->size()) return std::nullopt;
@@ -176,13 +176,15 @@ std::optional<std::vector<std::string>> TomlReader::strings(std::string_view key
 
 std::optional<TomlReader> TomlReader::table(std::string_view key, Presence presence) {
   const TomlValue* v = value(key, presence);
-  if (v == nullptr || read_table(*v, quoted(key), report_) == nullptr) return std::nullopt;
+  if (v == nullptr || read_table(*v, in_quotes(key), report_) == nullptr) return std::nullopt;
   const bool nested = name_.size() > 2 && name_.front() == '[';
   const std::string path = nested ? name_.substr(1, name_.size() - 2) + "." + std::string{key} : std::string{key};
   return TomlReader{*v->table(), v->place(), "[" + path + "]", report_};
 }
 
-std::string TomlReader::missing(std::string_view key) const { return "key " + quoted(key) + " is missing in " + name_; }
+std::string TomlReader::missing(std::string_view key) const {
+  return "key " + in_quotes(key) + " is missing in " + name_;
+}
 
 void TomlReader::finish() {
   for (const TomlEntry& entry : table_.entries()) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "kith/core/text.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "open_table.hpp"
 
@@ -47,12 +48,6 @@ const std::map<std::string, TrialKind>& kinds() {
 const std::set<std::string>& conditions() {
   static const std::set<std::string> kConditions{"open", "pl", "cl", "wt", "wtcl"};
   return kConditions;
-}
-
-std::string listed_words(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 std::optional<bool> verdict_of(const std::string& text) {
@@ -165,7 +160,7 @@ class TrialImport {
       for (const auto& [name, one] : kinds()) known.push_back(name);
       const auto nearest = nearest_word(type, known);
       complain(row.line(), "E0709", "'" + type + "' is no type of interaction",
-               (nearest.empty() ? "known" : "did you mean '" + nearest + "'? Known") + ": " + listed_words(known));
+               (nearest.empty() ? "known" : "did you mean '" + nearest + "'? Known") + ": " + joined(known));
       return;
     }
     const auto domain = part_of_name(*row.text("domain"));
@@ -234,9 +229,9 @@ class TrialImport {
     if (domain.num_features() != num_features) return;
     for (const auto& [line, half_space] : known.shown) {
       if (half_space.contains(domain.weights().integer)) continue;
-      return complain(line, "E0707", "people were shown what the robot of '" + domain.id() + "' contradicts",
-                      "its features are " + listed_words(domain.feature_names()) +
-                          ", in this order; if they are not, give a prior");
+      return complain(
+          line, "E0707", "people were shown what the robot of '" + domain.id() + "' contradicts",
+          "its features are " + joined(domain.feature_names()) + ", in this order; if they are not, give a prior");
     }
     known.prior = domain.prior();
   }

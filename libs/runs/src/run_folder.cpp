@@ -8,6 +8,7 @@
 #include "extend.hpp"
 #include "journal_file.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/text.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
@@ -195,8 +196,7 @@ void RunFolder::check_content(bool replace) {
   auto different = differences(earlier, inputs_);
   const auto more = different.size() > kMost ? different.size() - kMost : 0;
   if (more > 0) different.resize(kMost);
-  std::string listed;
-  for (const auto& key : different) listed += (listed.empty() ? "" : ", ") + key;
+  auto listed = joined(different);
   if (more > 0) listed += " and " + std::to_string(more) + " more";
   throw Error{ErrorKind::kUsage,
               path_.string() + " holds the results of a different study" + (study ? "" : ", unfinished") +

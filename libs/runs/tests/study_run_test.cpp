@@ -52,8 +52,8 @@ TEST_F(StudyRunTest, SumsUpWhatIsInTheTables) {
   const auto summary = run.publish({});
   ASSERT_TRUE(summary);
   ASSERT_EQ(summary->cells.size(), plain.cells.size());
-  EXPECT_EQ(summary->cells[1].knowledge.mean, plain.cells[1].knowledge.mean);
-  EXPECT_EQ(summary->group->area_sr.sd, plain.group->area_sr.sd);
+  EXPECT_EQ(summary->cells[1].knowledge->mean, plain.cells[1].knowledge->mean);
+  EXPECT_EQ(summary->group->area_sr->sd, plain.group->area_sr->sd);
 }
 
 TEST_F(StudyRunTest, GoesOnWhereItWasStopped) {

@@ -9,7 +9,9 @@
 
 #include "kith/core/error.hpp"
 #include "kith/core/stream.hpp"
+#include "kith/core/text.hpp"
 #include "kith/learners/presumed_kinds.hpp"
+#include "kith/study/outcomes.hpp"
 #include "parameters_toml.hpp"
 #include "read_contrasts.hpp"
 #include "read_group.hpp"
@@ -21,8 +23,6 @@ namespace kith {
 namespace {
 
 constexpr std::int64_t kMaxTeamSize = 30;
-
-std::string in_quotes(std::string_view word) { return std::string{"'"}.append(word).append("'"); }
 
 template <typename Target, typename Value>
 void set_if(Target& target, const std::optional<Value>& value) {
@@ -277,8 +277,7 @@ class SpecReader {
     for (std::size_t i = 0; i < composition.size(); ++i) {
       const std::string letter{composition[i]};
       if (std::count(known.begin(), known.end(), letter) > 0 || composition.find(composition[i]) < i) continue;
-      std::string list;
-      for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
+      const auto list = joined(known);
       report_.error("E0405", report_.document().inside(element, i), "there is no learner type '" + letter + "'",
                     (list.empty() ? "" : "declared: " + list + "; ") + "add a table [learner." + letter + "]");
     }

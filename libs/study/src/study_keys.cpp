@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "kith/core/text.hpp"
+
 namespace kith {
 
 template <>
@@ -33,14 +35,7 @@ OptionKey<StudySpec> learner_counterfactuals() {
 }
 
 // "'a', 'b' or 'c'"
-std::string alternatives(const std::vector<std::string_view>& names) {
-  std::string text;
-  for (const auto& name : names) {
-    if (!text.empty()) text += &name == &names.back() ? " or " : ", ";
-    text.append("'").append(name).append("'");
-  }
-  return text;
-}
+std::string alternatives(const std::vector<std::string_view>& names) { return listed(names, in_quotes, " or "); }
 
 std::vector<Parameter> declared_in(std::string_view table) {
   std::vector<Parameter> result;

@@ -1,138 +1,111 @@
 #include "kith/study/summary.hpp"
 
+#include <array>
 #include <cmath>
-#include <vector>
 
 namespace kith {
-namespace detail {
-
-// The values of the teams of one cell, gathered before anything is computed.
-struct GatheredTeams {
-  CellSummary cell;
-  std::vector<double> periods, knowledge, area_sr;
-  std::vector<double> person_periods, minutes, person_minutes;
-  std::vector<double> share_right, regret, worst_share_right;  // of those that were examined
-  std::vector<double> regret_before;                           // of those that were examined before the first lesson
-
-  void add(const TeamRecord& team) {
-    ++cell.teams;
-    cell.completed += team.completed() ? 1u : 0u;
-    cell.skipped += team.status == SessionStatus::kSkipped ? 1u : 0u;
-    periods.push_back(static_cast<double>(team.periods));
-    knowledge.push_back(team.knowledge);
-    area_sr.push_back(team.area_sr);
-    person_periods.push_back(static_cast<double>(team.cost.person_periods));
-    minutes.push_back(team.cost.minutes);
-    person_minutes.push_back(team.cost.person_minutes);
-    cell.forecast = team.forecast;
-    if (!team.exam) return;
-    share_right.push_back(team.exam->share_right);
-    regret.push_back(team.exam->regret);
-    worst_share_right.push_back(team.exam->worst_share_right);
-    double before = 0.0;
-    std::size_t members = 0;
-    for (const auto& row : team.exams) {
-      if (row.period != 0 || row.component != 0) continue;
-      before += row.regret;
-      ++members;
-    }
-    // Teams that were examined at the end only have no rows of period 0, unless nothing was taught.
-    if (members == team.learners.size() && members > 0) regret_before.push_back(before / static_cast<double>(members));
-  }
-  [[nodiscard]] bool contains(const TeamAddress& address) const {
-    return cell.variant == address.variant && cell.strategy == address.strategy &&
-           cell.composition == address.composition;
-  }
-};
-
-}  // namespace detail
-
 namespace {
 
-using detail::GatheredTeams;
-using Cells = std::vector<const GatheredTeams*>;
+using Value = std::optional<double>;
 
-// Two passes: no cancellation. The values are those of the cells, one cell after the other.
-MeanSd mean_sd(const Cells& cells, std::size_t n, std::vector<double> GatheredTeams::*values) {
-  double sum = 0.0;
-  for (const auto* cell : cells) {
-    for (const double value : cell->*values) sum += value;
-  }
-  MeanSd result{sum / static_cast<double>(n), {}};
-  if (n < 2) return result;
-  double squares = 0.0;
-  for (const auto* cell : cells) {
-    for (const double value : cell->*values) squares += (value - result.mean) * (value - result.mean);
-  }
-  result.sd = std::sqrt(squares / (static_cast<double>(n) - 1.0));
-  return result;
+// A value of a team, and where its mean goes.
+struct Measure {
+  std::optional<MeanSd> CellSummary::*mean;
+  Value (*of)(const TeamRecord& team);
+};
+
+template <double TeamExam::*member>
+Value in_exam(const TeamRecord& team) {
+  return team.exam ? Value{(*team.exam).*member} : std::nullopt;
 }
 
-// All teams of these cells together, without saying which cells they are.
-std::optional<CellSummary> pooled(const Cells& cells) {
-  CellSummary summary;
-  for (const auto* cell : cells) {
-    summary.teams += cell->cell.teams;
-    summary.completed += cell->cell.completed;
-    summary.skipped += cell->cell.skipped;
+// Teams that were examined at the end only have no rows of period 0, unless nothing was taught.
+Value regret_before(const TeamRecord& team) {
+  double sum = 0.0;
+  std::size_t members = 0;
+  for (const auto& row : team.exams) {
+    if (row.period != 0 || row.component != 0) continue;
+    sum += row.regret;
+    ++members;
   }
+  if (!team.exam || members != team.learners.size() || members == 0) return std::nullopt;
+  return sum / static_cast<double>(members);
+}
 
-  if (summary.teams == 0) return std::nullopt;
-  summary.periods = mean_sd(cells, summary.teams, &GatheredTeams::periods);
-  summary.knowledge = mean_sd(cells, summary.teams, &GatheredTeams::knowledge);
-  summary.area_sr = mean_sd(cells, summary.teams, &GatheredTeams::area_sr);
-  summary.person_periods = mean_sd(cells, summary.teams, &GatheredTeams::person_periods);
-  summary.minutes = mean_sd(cells, summary.teams, &GatheredTeams::minutes);
-  summary.person_minutes = mean_sd(cells, summary.teams, &GatheredTeams::person_minutes);
+constexpr std::array kMeasures{
+    Measure{&CellSummary::periods, [](const TeamRecord& team) { return Value{static_cast<double>(team.periods)}; }},
+    Measure{&CellSummary::knowledge, [](const TeamRecord& team) { return Value{team.knowledge}; }},
+    Measure{&CellSummary::area_sr, [](const TeamRecord& team) { return Value{team.area_sr}; }},
+    Measure{&CellSummary::person_periods,
+            [](const TeamRecord& team) { return Value{static_cast<double>(team.cost.person_periods)}; }},
+    Measure{&CellSummary::minutes, [](const TeamRecord& team) { return Value{team.cost.minutes}; }},
+    Measure{&CellSummary::person_minutes, [](const TeamRecord& team) { return Value{team.cost.person_minutes}; }},
+    Measure{&CellSummary::share_right, in_exam<&TeamExam::share_right>},
+    Measure{&CellSummary::regret, in_exam<&TeamExam::regret>},
+    Measure{&CellSummary::worst_share_right, in_exam<&TeamExam::worst_share_right>},
+    Measure{&CellSummary::regret_before, regret_before},
+};
 
-  std::size_t examined = 0;
-  for (const auto* cell : cells) examined += cell->share_right.size();
-  if (examined == summary.teams) {
-    summary.exam = ExamSummary{mean_sd(cells, examined, &GatheredTeams::share_right),
-                               mean_sd(cells, examined, &GatheredTeams::regret),
-                               mean_sd(cells, examined, &GatheredTeams::worst_share_right),
-                               {}};
-    std::size_t before = 0;
-    for (const auto* cell : cells) before += cell->regret_before.size();
-    if (before == summary.teams) summary.exam->regret_before = mean_sd(cells, before, &GatheredTeams::regret_before);
-  }
-
-  return summary;
+// Two passes: no cancellation.
+MeanSd mean_sd(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values) sum += value;
+  MeanSd result{sum / n, {}};
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  if (values.size() > 1) result.sd = std::sqrt(squares / (n - 1.0));
+  return result;
 }
 
 }  // namespace
 
-struct StudySummarizer::State {
-  std::vector<GatheredTeams> cells;
-};
-
-StudySummarizer::StudySummarizer() : state_{std::make_unique<State>()} {}
-StudySummarizer::~StudySummarizer() = default;
-StudySummarizer::StudySummarizer(StudySummarizer&&) noexcept = default;
-StudySummarizer& StudySummarizer::operator=(StudySummarizer&&) noexcept = default;
-
 void StudySummarizer::add(const TeamRecord& team) {
-  auto& cells = state_->cells;
-  if (cells.empty() || !cells.back().contains(team.address)) {
-    cells.emplace_back();
-    cells.back().cell.variant = team.address.variant;
-    cells.back().cell.strategy = team.address.strategy;
-    cells.back().cell.composition = team.address.composition;
+  const auto& address = team.address;
+  const auto is_of = [&](const CellSummary& cell) {
+    return cell.variant == address.variant && cell.strategy == address.strategy &&
+           cell.composition == address.composition;
+  };
+  if (cells_.empty() || !is_of(cells_.back().summary)) {
+    cells_.push_back({{.variant = address.variant, .strategy = address.strategy, .composition = address.composition},
+                      std::vector<std::vector<double>>(kMeasures.size())});
   }
-  cells.back().add(team);
+  auto& [cell, values] = cells_.back();
+  ++cell.teams;
+  cell.completed += team.completed() ? 1u : 0u;
+  cell.skipped += team.status == SessionStatus::kSkipped ? 1u : 0u;
+  cell.forecast = team.forecast;
+  for (std::size_t m = 0; m < kMeasures.size(); ++m) {
+    if (const auto value = kMeasures[m].of(team)) values[m].push_back(*value);
+  }
+}
+
+// All teams of these cells together, without saying which cells they are.
+std::optional<CellSummary> StudySummarizer::pooled(const std::vector<const Cell*>& cells) {
+  CellSummary summary;
+  for (const auto* cell : cells) {
+    summary.teams += cell->summary.teams;
+    summary.completed += cell->summary.completed;
+    summary.skipped += cell->summary.skipped;
+  }
+  if (summary.teams == 0) return std::nullopt;
+  for (std::size_t m = 0; m < kMeasures.size(); ++m) {
+    std::vector<double> values;
+    for (const auto* cell : cells) values.insert(values.end(), cell->values[m].begin(), cell->values[m].end());
+    if (values.size() == summary.teams) summary.*kMeasures[m].mean = mean_sd(values);
+  }
+  return summary;
 }
 
 StudySummary StudySummarizer::summary() const {
   StudySummary summary;
-  Cells group, baseline;
-  for (const auto& cell : state_->cells) {
-    auto one = *pooled({&cell});
-    one.variant = cell.cell.variant;
-    one.strategy = cell.cell.strategy;
-    one.composition = cell.cell.composition;
-    one.forecast = cell.cell.forecast;
-    summary.cells.push_back(std::move(one));
-    (cell.cell.strategy == kBaseline ? baseline : group).push_back(&cell);
+  std::vector<const Cell*> group, baseline;
+  for (const auto& cell : cells_) {
+    auto& one = summary.cells.emplace_back(*pooled({&cell}));
+    one.variant = cell.summary.variant;
+    one.strategy = cell.summary.strategy;
+    one.composition = cell.summary.composition;
+    one.forecast = cell.summary.forecast;
+    (one.strategy == kBaseline ? baseline : group).push_back(&cell);
   }
   summary.group = pooled(group);
   summary.baseline = pooled(baseline);

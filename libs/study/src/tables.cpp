@@ -5,6 +5,7 @@
 #include <charconv>
 #include <deque>
 
+#include "kith/core/text.hpp"
 #include "kith/files/csv_writer.hpp"
 #include "kith/study/record_columns.hpp"
 
@@ -38,9 +39,7 @@ const Value& shown(const Value& value, const Study& /*study*/) {
 std::string_view shown(const char& letter, const Study& /*study*/) { return {&letter, 1}; }
 std::string_view shown(const SessionStatus& status, const Study& /*study*/) { return name_of(status); }
 std::string shown(const std::vector<HalfSpace>& half_spaces, const Study& /*study*/) {
-  std::string text;
-  for (const auto& half_space : half_spaces) text += (text.empty() ? "" : ";") + blank_separated(half_space.normal());
-  return text;
+  return joined(half_spaces, ";", [](const HalfSpace& one) { return blank_separated(one.normal()); });
 }
 std::optional<std::string> shown(const std::optional<IntegerVector>& counts, const Study& study) {
   if (!counts) return std::nullopt;

@@ -240,10 +240,10 @@ TEST_P(PublishedStudySlow, LiesWhereAnIndependentPrototypeLies) {
   const Study study{{spec}};
   const auto summary = summarize(run_teams(item_delivery(), study, team_addresses(study)).teams);
   ASSERT_TRUE(summary.group && summary.baseline);
-  EXPECT_NEAR(summary.group->periods.mean, expected.group_periods, 0.25);
-  EXPECT_NEAR(summary.baseline->periods.mean, expected.baseline_periods, 0.4);
-  EXPECT_NEAR(summary.group->knowledge.mean, expected.group_knowledge, 0.04);
-  EXPECT_NEAR(summary.baseline->knowledge.mean, expected.baseline_knowledge, 0.04);
+  EXPECT_NEAR(summary.group->periods->mean, expected.group_periods, 0.25);
+  EXPECT_NEAR(summary.baseline->periods->mean, expected.baseline_periods, 0.4);
+  EXPECT_NEAR(summary.group->knowledge->mean, expected.group_knowledge, 0.04);
+  EXPECT_NEAR(summary.baseline->knowledge->mean, expected.baseline_knowledge, 0.04);
   EXPECT_GE(summary.group->completed, summary.group->teams * 99 / 100);
   EXPECT_GE(summary.baseline->completed, summary.baseline->teams * 99 / 100);
 }

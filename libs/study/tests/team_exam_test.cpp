@@ -121,11 +121,11 @@ TEST(TeamExam, IsSummarized) {
   const auto study = examined_study(ExamLevel::kEnd);
   const auto teams = teams_of(study);
   const auto summary = summarize(teams);
-  ASSERT_TRUE(summary.cells.front().exam);
-  EXPECT_NEAR(summary.cells.front().exam->regret.mean, (teams[0].exam->regret + teams[1].exam->regret) / 2.0, 1e-12);
-  EXPECT_TRUE(summary.group->exam);
-  EXPECT_FALSE(summarize(teams_of(examined_study(ExamLevel::kNone))).group->exam);
-  EXPECT_FALSE(summary.group->exam->regret_before);
+  ASSERT_TRUE(summary.cells.front().regret);
+  EXPECT_NEAR(summary.cells.front().regret->mean, (teams[0].exam->regret + teams[1].exam->regret) / 2.0, 1e-12);
+  EXPECT_TRUE(summary.group->regret);
+  EXPECT_FALSE(summarize(teams_of(examined_study(ExamLevel::kNone))).group->regret);
+  EXPECT_FALSE(summary.group->regret_before);
 }
 
 TEST(TeamExam, SummaryHasTheRegretBeforeTheFirstLesson) {
@@ -136,16 +136,16 @@ TEST(TeamExam, SummaryHasTheRegretBeforeTheFirstLesson) {
       if (row.period == 0 && row.component == 0) before += row.regret / 4.0;  // two teams of two
     }
   }
-  const auto exam = *summarize(teams).group->exam;
+  const auto exam = *summarize(teams).group;
   ASSERT_TRUE(exam.regret_before);
   EXPECT_NEAR(exam.regret_before->mean, before, 1e-12);
-  EXPECT_GT(exam.regret_before->mean, exam.regret.mean);
+  EXPECT_GT(exam.regret_before->mean, exam.regret->mean);
 }
 
 // Strategies that look ahead leave people better prepared than those of the paper.
 TEST(TeamExam, FindsPlannedLessonsBetter) {
   const auto regret = [](std::string_view strategy) {
-    return summarize(teams_of(examined_study(ExamLevel::kEnd, 0, strategy))).group->exam->regret.mean;
+    return summarize(teams_of(examined_study(ExamLevel::kEnd, 0, strategy))).group->regret->mean;
   };
   const double joint = regret("joint");
   EXPECT_LT(regret("plan"), joint);

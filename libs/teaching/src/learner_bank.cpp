@@ -174,8 +174,6 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
   }
 }
 
-std::vector<double> LearnerBank::weights_beforehand() const { return shares_of(hypotheses_); }
-
 std::vector<KindProbability> LearnerBank::kinds() const { return by_kind(hypotheses_, weights_); }
 
 template <typename Change>

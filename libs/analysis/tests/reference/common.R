@@ -18,33 +18,14 @@ json <- function(x) {
 array_of <- function(x) unname(as.list(x))
 lines <- function(name, entries) paste0("\"", name, "\":[\n", paste(vapply(entries, json, ""), collapse = ",\n"), "\n]")
 
-# ---- JSON: a vector is an array, unless it is marked as one value; a list is an object if it has names ----
-
-one <- function(x) structure(list(x), class = "one")
-scalars <- function(x) {
-  if (is.character(x)) return(paste0('"', x, '"'))
-  if (is.logical(x) && !anyNA(x)) return(ifelse(x, "true", "false"))
-  ifelse(is.na(x), "null", formatC(x, digits = 17, format = "g", width = 1))
-}
-# A data set is one line: members of the document, and entries of their lists, begin on lines of their own.
-as_json <- function(x, depth = 1) {
-  if (inherits(x, "one")) return(scalars(x[[1]]))
-  if (!is.list(x)) return(paste0("[", paste(scalars(x), collapse = ","), "]"))
-  if (!length(x)) return("[]")
-  parts <- vapply(x, as_json, "", depth = depth + 1)
-  between <- if (depth <= 2) ",\n" else ","
-  if (is.null(names(x))) return(paste0("[", if (depth == 2) "\n", paste(parts, collapse = between), "]"))
-  paste0("{", paste0('"', names(x), '":', parts, collapse = between), "}")
-}
-
 # ---- factors ----
 
-codes <- function(f) as.integer(f) - 1L
-factor_json <- function(name, f) list(name = one(name), levels = levels(f), codes = codes(f))
-factors_json <- function(fs) unname(Map(factor_json, names(fs), fs))
-terms_json <- function(terms, fs) lapply(strsplit(terms, ":"), function(t) match(t, names(fs)) - 1)
-drawn <- function(prefix, k, n, p = NULL)
-  factor(sample(paste0(prefix, seq_len(k)), n, TRUE, p), levels = paste0(prefix, seq_len(k)))
+# Whether every combination of levels has observations, in numbers proportional to those of its levels.
+are_crossed <- function(codes) {
+  counts <- table(codes)
+  expected <- Reduce(outer, lapply(seq_along(codes), function(f) apply(counts, f, sum) / sum(counts))) * sum(counts)
+  all(abs(counts - expected) < 1e-9)
+}
 
 # ---- studentised range, by its definition ----
 

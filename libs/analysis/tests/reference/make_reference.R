@@ -42,21 +42,6 @@ type_two <- function(terms, names, data) {
   list(terms = rows, residual_ss = deviance(full), residual_df = df.residual(full))
 }
 
-# Each term after all others: drop1 with sum-to-zero contrasts.
-type_three <- function(terms, names, data) {
-  labels <- vapply(terms, term_label, "", names)
-  old <- options(contrasts = c("contr.sum", "contr.poly"))
-  on.exit(options(old))
-  full <- fit(labels, data)
-  table <- drop1(full, . ~ ., test = "F")
-  rows <- lapply(seq_along(terms), function(t) {
-    row <- table[t + 1, ]
-    list(name = rownames(table)[t + 1], df = row$Df, ss = row[["Sum of Sq"]], f = row[["F value"]],
-         p = row[["Pr(>F)"]], eta = row[["Sum of Sq"]] / (row[["Sum of Sq"]] + deviance(full)))
-  })
-  list(terms = rows, residual_ss = deviance(full), residual_df = df.residual(full))
-}
-
 tukey <- function(y, g) {
   model <- aov(y ~ g, data = data.frame(y = y, g = g))
   table <- TukeyHSD(model)$g
@@ -137,12 +122,13 @@ data_sets <- list()
 add <- function(name, codes, analysed, terms = full_terms(length(codes)), exponent = 0, offset = 0) {
   stored <- analysed * 2^exponent + offset
   if (offset != 0) analysed <- stored - offset
+  if (!are_crossed(codes)) return(invisible())  # drawn all the same, so that what follows stays
   names <- letters[seq_along(codes)]
   data <- data.frame(y = analysed)
   for (f in seq_along(codes)) data[[names[f]]] <- factor(codes[[f]])
   entry <- list(name = name, y = array_of(stored), exponent = exponent, offset = offset,
                 factors = lapply(codes, array_of), terms = lapply(terms, function(t) array_of(t - 1)),
-                type2 = type_two(terms, names, data), type3 = type_three(terms, names, data),
+                squares = type_two(terms, names, data),
                 tests = one_factor(analysed, data$a))
   data_sets[[length(data_sets) + 1]] <<- entry
 }

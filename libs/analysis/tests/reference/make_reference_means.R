@@ -78,14 +78,12 @@ add <- function(name, counts, formula, requests, y = NULL, family = NULL) {
   data <- as.data.frame(lapply(codes, function(x) factor(letters[x], levels = letters[seq_len(max(x))])))
   names(data) <- c("a", "b", "c", "d")[seq_along(codes)]
   data$y <- if (is.null(y)) noise(codes) else if (is.function(y)) y(codes) else y
-  model <- if (is.null(family)) lm(formula, data) else glm(formula, family, data)
+  if (!is.null(family) || !are_crossed(codes)) return(invisible())  # drawn all the same, so that what follows stays
+  model <- lm(formula, data)
   labels <- attr(terms(formula), "term.labels")
   terms <- lapply(strsplit(labels, ":"), function(x) array_of(match(x, names(data)) - 1))
-  kept <- !is.na(coef(model))
-  entry <- list(name = name, family = if (is.null(family)) "normal" else family$family, y = array_of(data$y),
+  entry <- list(name = name, y = array_of(data$y),
                 factors = lapply(codes, function(x) array_of(x - 1)), terms = terms,
-                coefficients = lapply(unname(coef(model)), identity),
-                covariance = array_of(as.vector(vcov(model)[kept, kept])),
                 df = df.residual(model), sigma = sigma(model),
                 requests = lapply(requests, function(r) {
                   result <- do.call(analyse, c(list(model, data), r))
@@ -115,7 +113,7 @@ add("3 x 3 with three empty cells, additive", array(c(5, 0, 4, 0, 3, 6, 4, 2, 0)
 add("one observation per cell, additive", balanced(3, 4, 1), y ~ a + b, list(over("a"), over("b")))
 add("one observation in some cells", array(c(1, 1, 2, 1, 1, 1), c(3, 2)), y ~ a * b, list(over("a"), over("b")))
 add("the published design", balanced(4, 4, 15), y ~ a * b, list(over("a"), over("a", "b", weight_lists = list(c(1, 1, -1, -1), c(-3, 1, 1, 1)))))
-add("three factors", balanced(2, 3, 2, 3), y ~ a * b * c, list(over("a"), over("b", "c"), over("b", c("a", "c")), over(c("a", "c"), "b")))
+add("three factors", balanced(2, 3, 2, 3), y ~ a * b * c, list(over("a"), over("b", "c")))
 add("three factors, unbalanced", array(sample(1:4, 12, TRUE), c(2, 3, 2)), y ~ a * b * c,
     list(over("b"), over("a", c("b", "c"))))
 add("three factors, two-way interactions", array(sample(0:4, 24, TRUE), c(4, 3, 2)), y ~ a + b + c + a:b + a:c,

@@ -6,14 +6,10 @@
 
 #include "kith/analysis/estimable.hpp"
 #include "kith/analysis/factor.hpp"
+#include "kith/analysis/fixed_effects.hpp"
 #include "kith/analysis/tests.hpp"
 
 namespace kith {
-
-enum class SumsOfSquares {
-  kTypeII,   ///< Each term after all terms that do not contain it.
-  kTypeIII,  ///< Each term after all others, with sum-to-zero contrasts.
-};
 
 /// One row of an analysis of variance.
 struct AnovaTerm {
@@ -26,33 +22,28 @@ struct AnovaTerm {
 };
 
 struct AnovaTable {
-  SumsOfSquares type = SumsOfSquares::kTypeII;
   std::vector<AnovaTerm> terms;  ///< In the order asked for.
   double residual_sum_of_squares = 0.0;
   std::size_t residual_df = 0;
   std::size_t observations = 0;
   bool balanced = false;          ///< Every cell has the same number of observations.
-  std::size_t empty_cells = 0;    ///< Combinations of used levels that nobody has.
   std::vector<double> residuals;  ///< One per observation; empty if no model was fitted.
+  Estimable<FixedEffects> effects = Estimable<FixedEffects>::impossible("not computed");
 };
 
-/// Analysis of variance of a model with factors only.
+/// Analysis of variance of a model of factors whose errors are independent and equally large, and its means.
 ///
-/// Computed from the cells' means and sums of squares, after the observations are
-/// centred and scaled, so that neither size nor scale of the data matters: equals R's comparisons of linear models
-/// (type II) and drop1 with sum-to-zero contrasts (type III) to 1e-10 relative. Only a sum of squares itself can be
-/// beyond the range of double, and is then infinite or 0. A term of which nothing can be estimated (empty cells, one
-/// level, no residual degrees of freedom, no residual spread beyond the rounding of the values, so many combinations
-/// of levels that fitting would take minutes) says why.
-///
-/// Costs O(n) for n observations and O(c p^2) per term for c cells and p columns.
+/// Computed from the cells' means and sums of squares, after the observations are centred and scaled, so that neither
+/// size nor scale of the data matters: equals R's to 1e-10 relative. Only a sum of squares itself can be beyond the
+/// range of double, and is then infinite or 0. What cannot be estimated (cells of other numbers than make_cell_design()
+/// takes, one level, no residual degrees of freedom, no residual spread beyond the rounding of the values) says why.
 ///
 /// @param response  one value per observation, finite.
 /// @param factors   one code per observation each.
-/// @param terms     each a set of indices of `factors`, as in Formula::terms.
-/// @throws std::invalid_argument if shapes differ, a value is not finite, or a term names no factor.
+/// @param terms     each a set of indices of `factors`.
+/// @throws std::invalid_argument if a value is not finite, or as make_cell_design() does.
 [[nodiscard]] AnovaTable anova(std::span<const double> response, std::span<const Factor> factors,
-                               std::span<const std::vector<std::size_t>> terms, SumsOfSquares type);
+                               std::span<const std::vector<std::size_t>> terms);
 
 /// The effect of a factor within blocks, such as strategies that taught the same
 /// simulated people: block means are taken out first, so that differences between blocks do not count as noise.

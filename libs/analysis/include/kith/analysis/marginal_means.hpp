@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,44 +9,28 @@
 #include "kith/analysis/effect_size.hpp"
 #include "kith/analysis/estimable.hpp"
 #include "kith/analysis/fixed_effects.hpp"
+#include "kith/analysis/multiple.hpp"
 
 namespace kith {
 
-/// The estimated marginal mean of a combination of levels [searle1980] (R: emmeans).
+/// The estimated marginal mean of a level of a factor [searle1980] (R: emmeans).
 struct MarginalMean : LinearEstimate {
-  std::vector<std::size_t> levels;  ///< One per factor of MarginalMeans::over.
-  std::size_t observations = 0;     ///< That have these levels (and those of the group).
+  std::size_t observations = 0;  ///< That have this level (and that of the group).
 };
 
-/// The marginal means at one combination of levels of the `by` factors: one family of comparisons.
+/// The marginal means at one level of the `by` factor: one family of comparisons.
 struct MarginalGroup {
-  std::string name;                 ///< "common", "common:novice"; empty without `by` factors.
-  std::vector<std::size_t> levels;  ///< One per factor of MarginalMeans::by.
-  std::vector<MarginalMean> means;  ///< All combinations of levels; the last factor varies fastest.
+  std::string name;  ///< The level; empty without a `by` factor.
+  std::vector<MarginalMean> means;
 };
 
-struct MarginalMeans {
-  std::vector<std::size_t> over;  ///< Indices of the model's factors.
-  std::vector<std::size_t> by;
-  std::vector<MarginalGroup> groups;
-};
-
-/// Marginal means of every combination of levels of the factors `over`, at each combination of levels of the factors
-/// `by`, averaged over all other factors of the model, whose combinations of levels count equally. Intervals are not
-/// adjusted.
-/// @param over, by  indices of model.design.factors, none twice; `over` is not empty.
-/// @throws std::invalid_argument if an index is out of range or occurs twice, or confidence is not in (0, 1).
-[[nodiscard]] MarginalMeans marginal_means(const FixedEffects& model, std::span<const std::size_t> over,
-                                           std::span<const std::size_t> by = {}, double confidence = 0.95);
-
-/// How p-values and intervals of a family of contrasts are adjusted.
-enum class Adjustment {
-  kNone,
-  kBonferroni,
-  kHolm,   ///< Intervals are Bonferroni's: Holm's procedure has no simple ones.
-  kFdr,    ///< Benjamini and Hochberg [benjamini1995]; intervals are not adjusted.
-  kTukey,  ///< Tukey-Kramer: the studentised range of all means [tukey1949; kramer1956]. For all pairs.
-};
+/// Marginal means of every level of a factor, at each level of the factor `by` if there is one, averaged over all other
+/// factors of the model, whose combinations of levels count equally. Intervals are not adjusted.
+/// @param factor, by  indices of model.design.factors.
+/// @throws std::invalid_argument if they are not, or the same, or confidence is not in (0, 1).
+[[nodiscard]] std::vector<MarginalGroup> marginal_means(const FixedEffects& model, std::size_t factor,
+                                                        std::optional<std::size_t> by = std::nullopt,
+                                                        double confidence = 0.95);
 
 /// A weight for every mean of a group, in the order of MarginalGroup::means.
 struct MeanContrast {
@@ -57,14 +42,16 @@ struct MeanContrast {
 /// sum is 0 within 1e-6 of the largest.
 [[nodiscard]] std::string contrast_error(std::span<const double> weights, std::size_t num_means);
 
-/// Every pair of means: "second - first", in the order of R: the first with every later one, then the second.
-[[nodiscard]] std::vector<MeanContrast> pairwise_contrasts(const MarginalGroup& group);
-/// Estimates the contrasts of one group as one family (R: emmeans::contrast). Contrasts that cannot be estimated do not
-/// count in the family.
+/// Estimates the contrasts of one group as one family (R: emmeans::contrast). Intervals are Bonferroni's where the
+/// p-values are his or Holm's, whose procedure has no simple ones, and not adjusted for false discovery rates.
 /// @param means  of the same model.
 /// @throws std::invalid_argument if contrast_error() finds fault with one, or confidence is not in (0, 1).
 [[nodiscard]] std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const MarginalGroup& means,
                                                              std::span<const MeanContrast> contrasts,
-                                                             Adjustment adjustment, double confidence = 0.95);
+                                                             Correction correction, double confidence = 0.95);
+/// Estimates every pair of means: "second - first", in the order of R: the first with every later one, then the second.
+/// More than one pair are adjusted by Tukey-Kramer: the studentised range of all means [tukey1949; kramer1956].
+[[nodiscard]] std::vector<LinearEstimate> estimate_pairs(const FixedEffects& model, const MarginalGroup& means,
+                                                         double confidence = 0.95);
 
 }  // namespace kith

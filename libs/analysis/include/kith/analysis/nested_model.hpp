@@ -22,6 +22,9 @@ struct GroupVariance {
   /// Its share of the variance of a single row, in [0, 1): the correlation of two rows that have this group in common
   /// and no smaller one, given their fixed effects.
   double intraclass_correlation = 0.0;
+  /// By how much the variance of the mean of all rows is larger than if they were independent, 1 + (rows in each group
+  /// - 1) * intraclass correlation [kish1965].
+  double design_effect = 1.0;
   /// With one kind of group a profile likelihood interval, which starts at 0 where a variance of 0 fits nearly as well.
   /// With several, Wald's interval on the log odds; none for a variance of 0.
   Estimable<Interval> intraclass_interval = Estimable<Interval>::impossible("its variance is zero");
@@ -34,8 +37,8 @@ struct GroupVariance {
 /// another: of a balanced design, in which the mixed model's estimates by REML and its F tests are those of an analysis
 /// of variance with error strata (R: aov with Error(), lmerTest). Every other design is for lme4.
 struct NestedModel {
-  /// Coefficients with their covariance and Satterthwaite's degrees of freedom; what standardises differences is the
-  /// standard deviation of a single row.
+  /// The cells' means, with Satterthwaite's degrees of freedom; what standardises differences is the standard deviation
+  /// of a single row.
   FixedEffects fixed;
   /// F test of every term against the mean square of its stratum. Where groups are no more alike than chance makes
   /// them, the strata are pooled, as REML does.
@@ -51,7 +54,7 @@ struct NestedModel {
 /// is not in one stratum, as in unbalanced designs; factors that tell all groups apart; no spread of rows.
 /// @param groups  from the largest to the smallest; one at least.
 /// @throws std::invalid_argument if shapes differ, a value is not finite, there are no groups, or confidence is not in
-/// (0, 1). Costs O(n p) for n rows and p columns.
+/// (0, 1). Costs O(n c) for n rows and c cells.
 [[nodiscard]] Estimable<NestedModel> fit_nested_model(std::span<const double> response, std::span<const Factor> factors,
                                                       std::span<const std::vector<std::size_t>> terms,
                                                       std::span<const Factor> groups, double confidence = 0.95);

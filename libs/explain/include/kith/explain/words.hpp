@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/core/text.hpp"
 #include "kith/domains/domain.hpp"
 #include "kith/explain/statement.hpp"
 #include "kith/geometry/half_space.hpp"
@@ -81,8 +82,6 @@ struct CountedAs {
 [[nodiscard]] std::string counts_text(const Domain& domain, const IntegerVector& counts);
 /// The return of counts in units of 1 / Domain::count_scale(), weights at length 1.
 [[nodiscard]] double return_of(const Domain& domain, const IntegerVector& counts);
-/// "1 team", "6 teams".
-[[nodiscard]] std::string counted(std::size_t n, const std::string& noun);
 /// The probability that the actions of a path lead along it; nothing if that is certain.
 [[nodiscard]] std::optional<double> chance_of_path(const Domain& domain, MdpIndex world, const Trajectory& path);
 /// "most likely path, 12 % chance"; nothing where chance_of_path() is nothing.
@@ -96,8 +95,6 @@ struct CountedAs {
 /// goal"; "it never arrives" where the file does not tell. If the robot does not leave its cell any more: "it stays
 /// where it is and never delivers the parcel". Empty for paths that end.
 [[nodiscard]] std::string never_in_words(const Domain& domain, MdpIndex world, const Trajectory& path);
-/// "a", "a and b", "a, b and c".
-[[nodiscard]] std::string listed(const std::vector<std::string>& things);
 /// "(2,1)": column and row from the top left, as in everything that kith prints.
 [[nodiscard]] std::string cell_text(const GridMap& map, const Cell& cell);
 /// "world 3", with the name that the file gives it: "world 3 (visiting hours)".

@@ -62,13 +62,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 /// Brings the entries of a folder to the disk. File systems that cannot do so for folders are let be.
 void synchronise_folder(const std::filesystem::path& folder);
 
-/// What read_file() reads.
-enum class Readable {
-  kRegularFile,  ///< For files that we find in folders, where a named pipe or a device would keep us waiting.
-  kAnything,     ///< For files that people name: pipes too, as in `kith analyze <(...)`.
-};
-
-/// The content of a file. @throws kith::Error (kIo) with the path and the system's reason.
-[[nodiscard]] std::string read_file(const std::filesystem::path& path, Readable what = Readable::kRegularFile);
+/// The content of a regular file: a named pipe or a device would keep us waiting. @throws kith::Error (kIo) with the
+/// path and the system's reason.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 }  // namespace kith

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,14 +15,6 @@ struct MeanSd {
   std::optional<double> sd;
 };
 
-/// The exams of teams at their end.
-struct ExamSummary {
-  MeanSd share_right;
-  MeanSd regret;
-  MeanSd worst_share_right;
-  std::optional<MeanSd> regret_before;  ///< Before the first lesson, of ExamLevel::kPeriod.
-};
-
 /// What the teams of one cell, or of several pooled, came to.
 struct CellSummary {
   std::size_t variant = 0;
@@ -32,14 +23,12 @@ struct CellSummary {
   std::size_t teams = 0;
   std::size_t completed = 0;
   std::size_t skipped = 0;  ///< Teams that left a component out because nothing that could be shown told anything.
-  MeanSd periods;
-  MeanSd knowledge;
-  MeanSd area_sr;
-  MeanSd person_periods;
-  MeanSd minutes;  ///< By the study's pace, as TeamCost.
-  MeanSd person_minutes;
-  std::optional<TeamForecast> forecast;  ///< Of a cell, before the first lesson; missing when pooled.
-  std::optional<ExamSummary> exam;       ///< If all teams were examined.
+  std::optional<TeamForecast> forecast{};  ///< Of a cell, before the first lesson; missing when pooled.
+  // Of all teams; missing if some have no value.
+  std::optional<MeanSd> periods{}, knowledge{}, area_sr{};
+  std::optional<MeanSd> person_periods{}, minutes{}, person_minutes{};  ///< By the study's pace, as TeamCost.
+  std::optional<MeanSd> share_right{}, regret{}, worst_share_right{};   ///< In the exam at the end.
+  std::optional<MeanSd> regret_before{};  ///< Before the first lesson, of ExamLevel::kPeriod.
 };
 
 /// Per cell in the order of the tables, and pooled over the group strategies and over the baseline.
@@ -53,18 +42,16 @@ struct StudySummary {
 /// The same for teams that come one by one, in the order of the tables: keeps a few numbers of each.
 class StudySummarizer {
  public:
-  StudySummarizer();
-  ~StudySummarizer();
-  StudySummarizer(const StudySummarizer&) = delete;
-  StudySummarizer& operator=(const StudySummarizer&) = delete;
-  StudySummarizer(StudySummarizer&&) noexcept;
-  StudySummarizer& operator=(StudySummarizer&&) noexcept;
   void add(const TeamRecord& team);
   [[nodiscard]] StudySummary summary() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Cell {
+    CellSummary summary;
+    std::vector<std::vector<double>> values;  // of every measure, of the teams that have it
+  };
+  [[nodiscard]] static std::optional<CellSummary> pooled(const std::vector<const Cell*>& cells);
+  std::vector<Cell> cells_;
 };
 
 }  // namespace kith

@@ -65,8 +65,6 @@ class LearnerBank {
   [[nodiscard]] std::span<const LearnerHypothesis> hypotheses() const noexcept { return hypotheses_; }
   /// Posterior probabilities, one per hypothesis, if the person learns; sum to 1.
   [[nodiscard]] std::span<const double> weights() const noexcept { return weights_; }
-  /// The same beforehand.
-  [[nodiscard]] std::vector<double> weights_beforehand() const;
   /// Posterior probability that the person learns (still).
   [[nodiscard]] double probability_of_learning() const noexcept { return learns_; }
   /// See NonLearners::odds_of_learning(); infinite if everybody learns.

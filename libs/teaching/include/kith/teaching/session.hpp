@@ -144,8 +144,6 @@ class Session {
   // --- state ----------------------------------------------------------------
   /// What to show and ask now. @throws kith::Error (kUsage) in the phases kProposal and kFinished.
   [[nodiscard]] const Lesson& lesson() const;
-  /// Whether a member is released until the next component begins.
-  [[nodiscard]] bool is_released(std::size_t member) const { return attendance_.at(member) == Attendance::kReleased; }
   /// Whether a member takes part in the current period.
   [[nodiscard]] bool takes_part(std::size_t member) const { return attendance_.at(member) == Attendance::kPresent; }
   /// Whether a member has answered the current tests.

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kith/belief/team_belief.hpp"
-#include "kith/core/baseline.hpp"
 #include "kith/core/parameter.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
@@ -21,6 +20,10 @@ namespace kith {
 class TeamBank;
 class UnitSelector;
 struct TeachingOptions;
+
+/// The strategy to compare with, by its name in study files and tables: everybody is taught alone, one after the other,
+/// in sessions of one person each.
+inline constexpr std::string_view kBaseline = "baseline";
 
 /// A member as they are, which only simulations know: the bound of what knowing people can be worth.
 struct MemberTruth {
