@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "blocks.hpp"
 #include "kith/analysis/anova.hpp"
 #include "kith/analysis/distributions.hpp"
 #include "kith/analysis/moments.hpp"
@@ -275,58 +276,26 @@ double f_test(double squares, double df, double error_squares, double error_df, 
 // People are blocks, nested in compositions; every block has each strategy once, so all terms are orthogonal.
 std::array<double, 3> StudyTests::within_people(const std::vector<std::size_t>& compositions, const EffectData& data,
                                                 const Draw& draw) const {
-  const auto k = groups_.size(), n = teams_;
-  const auto num_strategies = static_cast<double>(k), num_people = static_cast<double>(n);
-  const auto num_compositions = static_cast<double>(compositions.size());
-  const auto at = [&](std::size_t c, std::size_t s, std::size_t person) {
-    const auto row = groups_[s] * pool_.compositions().size() + compositions[c];
-    return data.at(groups_[s], compositions[c], draw[row][person]);
-  };
-  std::vector<std::vector<double>> cell(compositions.size(), std::vector<double>(k, 0.0));
-  std::vector<std::vector<double>> block(compositions.size(), std::vector<double>(n, 0.0));
-  std::vector<double> composition_mean(compositions.size(), 0.0), strategy_mean(k, 0.0);
-  double mean = 0.0;
+  Blocks blocks;
+  std::vector<double> means;  // of the blocks
   for (std::size_t c = 0; c < compositions.size(); ++c) {
-    for (std::size_t s = 0; s < k; ++s) {
-      for (std::size_t person = 0; person < n; ++person) {
-        const double value = at(c, s, person);
-        cell[c][s] += value / num_people;
-        block[c][person] += value / num_strategies;
-      }
-      composition_mean[c] += cell[c][s] / num_strategies;
-      strategy_mean[s] += cell[c][s] / num_compositions;
-    }
-    mean += composition_mean[c] / num_compositions;
-  }
-  const auto square = [](double x) { return x * x; };
-  double strategy = 0.0, composition = 0.0, interaction = 0.0, people = 0.0;
-  std::vector<std::vector<double>> covariance(k, std::vector<double>(k, 0.0));  // of residuals, times their df
-  std::vector<double> residual(k);
-  for (std::size_t s = 0; s < k; ++s) strategy += num_people * num_compositions * square(strategy_mean[s] - mean);
-  for (std::size_t c = 0; c < compositions.size(); ++c) {
-    composition += num_strategies * num_people * square(composition_mean[c] - mean);
-    for (std::size_t s = 0; s < k; ++s)
-      interaction += num_people * square(cell[c][s] - composition_mean[c] - strategy_mean[s] + mean);
-    for (std::size_t person = 0; person < n; ++person) {
-      people += num_strategies * square(block[c][person] - composition_mean[c]);
-      for (std::size_t s = 0; s < k; ++s)
-        residual[s] = at(c, s, person) - block[c][person] - cell[c][s] + composition_mean[c];
-      for (std::size_t i = 0; i < k; ++i) {
-        for (std::size_t j = 0; j < k; ++j) covariance[i][j] += residual[i] * residual[j];
-      }
+    for (std::size_t person = 0; person < teams_; ++person) {
+      auto& row = blocks.rows.emplace_back();
+      for (const auto s : groups_)
+        row.push_back(data.at(s, compositions[c], draw[s * pool_.compositions().size() + compositions[c]][person]));
+      means.push_back(subtract_mean(row));
+      blocks.group.push_back(c);
     }
   }
-  double trace = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < k; ++i) {
-    trace += covariance[i][i];
-    for (std::size_t j = 0; j < k; ++j) squares += square(covariance[i][j]);
-  }
-  // The residuals are centred over strategies, so this is the estimate of Greenhouse and Geisser.
-  const double epsilon = squares > 0.0 ? trace * trace / ((num_strategies - 1.0) * squares) : 1.0;
-  const double people_df = num_compositions * (num_people - 1.0), error_df = (num_strategies - 1.0) * people_df;
-  return {f_test(strategy, num_strategies - 1.0, trace, error_df, epsilon),
-          f_test(composition, num_compositions - 1.0, people, people_df, 1.0),
-          f_test(interaction, (num_strategies - 1.0) * (num_compositions - 1.0), trace, error_df, epsilon)};
+  const auto spread = spread_of(blocks, compositions.size());
+  const double epsilon = greenhouse_geisser(covariances_of(blocks, spread));
+  const auto strategies = static_cast<double>(groups_.size()),
+             num_compositions = static_cast<double>(compositions.size());
+  const double error_df = (strategies - 1.0) * (static_cast<double>(means.size()) - num_compositions);
+  const auto between = one_way_anova(means, {columns::kComposition, pool_.compositions(), blocks.group});
+  return {
+      f_test(spread.of_within, strategies - 1.0, spread.residual, error_df, epsilon), between ? between->p : 1.0,
+      f_test(spread.of_interaction, (strategies - 1.0) * (num_compositions - 1.0), spread.residual, error_df, epsilon)};
 }
 
 double StudyTests::within(const Effect& effect, const EffectData& data, const Draw& draw) const {
