@@ -67,8 +67,7 @@ class RunImport {
     std::error_code ignored;
     if (!fs::exists(folder / "inputs" / "study.toml", ignored)) {
       throw Error{{detail::fault("E0703", "this folder holds no answers that can be read", folder, 0,
-                                 "give the folder of a run, the folder of the Lee et al. (2021) tables, or a "
-                                 "CSV file with one row per trial")}};
+                                 "give the folder of a run, or a CSV file with one row per trial")}};
     }
     if (!fs::exists(folder / "manifest.json", ignored) || !fs::exists(folder / "tables", ignored)) {
       throw Error{{detail::fault("E0704", "this run is not finished: it has no manifest.json or no tables", folder, 0,

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "kith/core/diagnostic.hpp"
@@ -20,13 +21,20 @@ class OpenRow {
 
   [[nodiscard]] std::size_t line() const { return row_.line; }
   // The cell's value; nothing if it, or its column, is missing.
-  [[nodiscard]] std::optional<std::string> text(const std::string& column) const;
-  [[nodiscard]] std::optional<std::int64_t> integer(const std::string& column) const;
-  [[nodiscard]] std::optional<double> real(const std::string& column) const;
-  [[nodiscard]] std::optional<bool> boolean(const std::string& column) const;
+  [[nodiscard]] std::optional<std::string> text(const std::string& column) const { return get<std::string>(column); }
+  [[nodiscard]] std::optional<std::int64_t> integer(const std::string& column) const {
+    return get<std::int64_t>(column);
+  }
+  [[nodiscard]] std::optional<double> real(const std::string& column) const { return get<double>(column); }
+  [[nodiscard]] std::optional<bool> boolean(const std::string& column) const { return get<bool>(column); }
 
  private:
-  [[nodiscard]] const TableCell* cell(const std::string& column) const;
+  template <typename Value>
+  [[nodiscard]] std::optional<Value> get(const std::string& column) const {
+    const auto found = positions_.find(column);
+    const auto* value = found == positions_.end() ? nullptr : std::get_if<Value>(&row_.cells[found->second]);
+    return value == nullptr ? std::nullopt : std::optional{*value};
+  }
 
   const CsvRow& row_;
   const std::map<std::string, std::size_t>& positions_;
@@ -37,11 +45,6 @@ class OpenRow {
 // Faults are added to `diagnostics`. @throws kith::Error (kIo).
 void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
                    std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row);
-
-// The same of a text; `name` is used in messages.
-void read_open_csv(const std::string& content, const std::string& name, std::vector<Column> required,
-                   std::vector<Column> optional, std::vector<Diagnostic>& diagnostics,
-                   const std::function<void(const OpenRow&)>& on_row);
 
 // @throws kith::Error with the diagnostics if one of them is an error.
 void throw_if_errors(const std::vector<Diagnostic>& diagnostics);
