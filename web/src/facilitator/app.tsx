@@ -11,7 +11,7 @@ import { Connection } from './connection';
 import type { Action } from './controls/actions';
 import { ActionDialog } from './controls/action_dialog';
 import { Data, problemsOf } from './data';
-import { Live } from './live/live';
+import { Room } from './live/room';
 import { LogPage } from './log';
 import type { FacilitatorView } from './protocol';
 import { Rooms } from './rooms';
@@ -20,11 +20,11 @@ import { ApiContext } from './setup/link_box';
 import { Setup } from './setup/setup';
 import { Tips } from './tip';
 import { Dismissed, NoServer } from './welcome';
+import { roomTitle } from './words';
 
 const kTabs = [
   { id: 'setup', label: 'Set-up' },
   { id: 'rooms', label: 'Rooms' },
-  { id: 'live', label: 'Live' },
   { id: 'data', label: 'Data' },
   { id: 'log', label: 'Log' },
 ] as const;
@@ -72,16 +72,14 @@ interface ShellProps {
   onRetry: () => void;
 }
 
-function firstTab(view: FacilitatorView): Tab {
+function firstTab({ role, rooms }: FacilitatorView): Tab {
   const kept = kTabs.find(({ id }) => id === remembered('tab'));
-  if (kept) return kept.id;
-  if (view.rooms.length === 0) return view.role === 'facilitator' ? 'setup' : 'rooms';
-  return view.rooms.length === 1 ? 'live' : 'rooms';
+  return kept?.id ?? (rooms.length === 0 && role === 'facilitator' ? 'setup' : 'rooms');
 }
 
 function Shell({ view, socket, send, onRetry }: ShellProps): JSX.Element {
   const [tab, setTab] = useState<Tab>(() => firstTab(view));
-  const [selected, setSelected] = useState<string | null>(remembered('room'));
+  const [selected, setSelected] = useState(remembered('room') ?? '');
   const [asked, setAsked] = useState<{ action: Action; room: string } | null>(null);
   const isFacilitator = view.role === 'facilitator';
   const mayAct = isFacilitator && socket.phase === 'open';
@@ -92,24 +90,33 @@ function Shell({ view, socket, send, onRetry }: ShellProps): JSX.Element {
   const select = (room: string): void => {
     remember('room', room);
     setSelected(room);
-    void send('room-select', { room, reason: '' }).catch(() => undefined);
+    if (room !== '') void send('room-select', { room, reason: '' }).catch(() => undefined);
   };
   useEffect(() => {
-    // Of several rooms the one that is being taught, if it is the only one.
+    // The only room, or the only one that is being taught.
     const running = view.rooms.filter(({ stage }) => stage === 'running' || stage === 'paused');
-    const only = view.rooms.length === 1 ? view.rooms[0] : running.length === 1 && selected === null ? running[0] : undefined;
-    if (only && selected !== only.id) select(only.id);
+    const [only, another] = view.rooms.length === 1 ? view.rooms : running;
+    if (only && !another && remembered('room') === null) select(only.id);
   }, [view.rooms]);
+  const room = view.rooms.find(({ id }) => id === selected);
   useEffect(() => {
-    document.title = `${kTabs.find(({ id }) => id === tab)?.label} - ${view.study.title}`;
-  }, [tab, view.study.title]);
+    const place = tab === 'rooms' && room ? roomTitle(room) : kTabs.find(({ id }) => id === tab)?.label;
+    document.title = `${place} - ${view.study.title}`;
+  }, [tab, room?.id, view.study.title]);
   return (
     <>
       <header class="top">
         <h1>{view.study.title}</h1>
         <nav aria-label="Parts of this page">
           {kTabs.map(({ id, label }) => (
-            <button type="button" aria-current={tab === id ? 'page' : undefined} onClick={() => go(id)}>
+            <button
+              type="button"
+              aria-current={tab === id ? 'page' : undefined}
+              onClick={() => {
+                if (id === 'rooms') select('');
+                go(id);
+              }}
+            >
               {label}
             </button>
           ))}
@@ -123,18 +130,9 @@ function Shell({ view, socket, send, onRetry }: ShellProps): JSX.Element {
       <Banners view={view} socket={socket} onRetry={onRetry} onData={() => go('data')} />
       <main id="main" tabIndex={-1}>
         {tab === 'setup' && <Setup view={view} mayAct={mayAct} send={send} />}
-        {tab === 'rooms' && (
-          <Rooms
-            view={view}
-            selected={selected}
-            onOpen={(room) => {
-              select(room);
-              go('live');
-            }}
-          />
-        )}
-        {tab === 'live' && (
-          <Live view={view} selected={selected} mayAct={mayAct} onSelect={select} onAct={(action, room) => setAsked({ action, room })} />
+        {tab === 'rooms' && !room && <Rooms view={view} onOpen={select} />}
+        {tab === 'rooms' && room && (
+          <Room view={view} room={room} mayAct={mayAct} onSelect={select} onAct={(action) => setAsked({ action, room: room.id })} />
         )}
         {tab === 'data' && <Data view={view} />}
         {tab === 'log' && <LogPage view={view} />}

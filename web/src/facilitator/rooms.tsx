@@ -27,11 +27,10 @@ function matches(room: RoomRow, text: string): boolean {
 
 interface RoomsProps {
   view: FacilitatorView;
-  selected: string | null;
   onOpen: (room: string) => void;
 }
 
-export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
+export function Rooms({ view, onOpen }: RoomsProps): JSX.Element {
   const [filter, setFilter] = useState<Filter>('all');
   const [text, setText] = useState('');
   const now = useNow();
@@ -70,13 +69,13 @@ export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
                 <th scope="col" class="number">
                   <Explained term="interactions">Period</Explained>
                 </th>
-                <th scope="col">
+                <th scope="col" class="number">
                   <Explained term="component">Component</Explained>
                 </th>
                 <th scope="col" class="number">
                   Running for
                 </th>
-                <th scope="col">
+                <th scope="col" class="number">
                   <Explained term="forecast">Time left</Explained>
                 </th>
                 <th scope="col">Attention</th>
@@ -84,7 +83,7 @@ export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
             </thead>
             <tbody>
               {shown.map((room) => (
-                <Row key={room.id} room={room} now={now} isSelected={room.id === selected} onOpen={onOpen} />
+                <Row key={room.id} room={room} now={now} onOpen={onOpen} />
               ))}
             </tbody>
           </table>
@@ -97,14 +96,13 @@ export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
 interface RowProps {
   room: RoomRow;
   now: number;
-  isSelected: boolean;
   onOpen: (room: string) => void;
 }
 
-function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
+function Row({ room, now, onOpen }: RowProps): JSX.Element {
   const { forecast } = room;
   return (
-    <tr class={isSelected ? 'selected' : undefined}>
+    <tr>
       <th scope="row">
         <button type="button" class="link" onClick={() => onOpen(room.id)}>
           {roomTitle(room)}
@@ -127,10 +125,18 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
           ))}
         </ul>
       </td>
-      <td class="number">{room.period || ''}</td>
-      <td>{room.stage === 'lobby' ? '' : room.component}</td>
-      <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : duration(now - room.started_ms)}</td>
-      <td>{forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : ''}</td>
+      <td class="number" data-head="Period">
+        {room.period || null}
+      </td>
+      <td class="number" data-head="Component">
+        {room.stage === 'lobby' ? null : room.component}
+      </td>
+      <td class="number" data-head="Running for">
+        {room.started_ms === undefined || room.stage === 'ended' ? null : duration(now - room.started_ms)}
+      </td>
+      <td class="number" data-head="Time left">
+        {forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : null}
+      </td>
       <td class="worry-cell">{attention(room)}</td>
     </tr>
   );

@@ -2,24 +2,16 @@
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useState } from 'preact/hooks';
 import { Player } from './steps_player';
-import { actionsText, endText, placedStepText } from './placed_words';
 import { BoardView as BoardDrawing } from '../../shared/board/board';
 import { Patterns } from '../../shared/board/glyphs';
 import { closedAt, played } from '../../shared/board/repeats';
 import { Legend } from '../../shared/board/legend';
-import { worldText, type Board, type MapDomain } from '../../shared/board/types';
+import { worldText, type MapDomain } from '../../shared/board/types';
+import { boardText, playedText } from '../../shared/play/words';
 import { useCalm, usePlayback } from '../../shared/playback';
-import type { BoardView, Frame, LessonNow, RunnerUp, ShownBoard } from '../protocol';
+import type { BoardView, LessonNow, RunnerUp, ShownBoard } from '../protocol';
 import { Explained } from '../tip';
 import { sentenceText, upperFirst } from '../words';
-
-const asBoard = (board: BoardView, frames: Frame[]): Board => ({
-  world: board.world,
-  start: board.start,
-  frames,
-  ...(board.map ? { map: board.map } : {}),
-  ...(board.fences ? { fences: board.fences } : {}),
-});
 
 function useDrawing(board: BoardView): { domain: MapDomain; legend: Legend } {
   const key = JSON.stringify(board.domain);
@@ -82,7 +74,8 @@ function Shown({ choice, isDeep }: { choice: Choice; isDeep: boolean }): JSX.Ele
   const { domain, legend } = useDrawing(shown.board);
   const frames = played(shown);
   const playback = usePlayback(frames.length - 1);
-  const board = asBoard(shown.board, frames);
+  const board = { ...shown.board, frames };
+  const said = (step: number): string => playedText(shown.board, legend, shown, step);
   const isTall = (domain.height ?? 0) > 1.2 * (domain.width ?? 1);
   const calm = useCalm();
   useLayoutEffect(() => {
@@ -98,18 +91,18 @@ function Shown({ choice, isDeep }: { choice: Choice; isDeep: boolean }): JSX.Ele
             legend={legend}
             board={board}
             step={playback.step}
-            label={`${choice.label}: the robot's path: ${actionsText(shown)}.`}
+            label={`${choice.label}: ${boardText(board, legend, board.start)}`}
             path
             closedAt={closedAt(shown)}
           />
         ) : (
           <ol class="steps">
-            {shown.frames.slice(0, -1).map((frame) => (
-              <li>{placedStepText(frame)}</li>
+            {frames.slice(1).map((_, i) => (
+              <li>{said(i + 1)}</li>
             ))}
           </ol>
         )}
-        {board.map && <Player frames={frames} playback={playback} what={choice.label} end={endText(shown)} />}
+        {board.map && <Player playback={playback} what={choice.label} text={said(playback.step)} />}
       </div>
       <div class="shown-facts">
         {shown.gain !== undefined && !isTest && isDeep && (
@@ -148,7 +141,7 @@ function RunnersUp({ lesson }: { lesson: LessonNow }): JSX.Element | null {
 
 function Runner({ runner, most, chosen }: { runner: RunnerUp; most: number; chosen: number }): JSX.Element {
   const { domain, legend } = useDrawing(runner.board);
-  const board = asBoard(runner.board, [runner.board.start]);
+  const board = { ...runner.board, frames: [runner.board.start] };
   const says = runner.sentences.map(sentenceText).join('; ');
   return (
     <li

@@ -1,18 +1,15 @@
 // Steps through a path: by a button, step by step, or with a slider that the arrow keys move.
 import type { JSX } from 'preact';
 import { useId } from 'preact/hooks';
-import type { Frame } from '../../shared/board/types';
 import { useCalm, type Playback } from '../../shared/playback';
-import { stepText } from './placed_words';
 
 interface PlayerProps {
-  frames: Frame[];
   playback: Playback;
   what: string;
-  end: string; // what is said behind the last step
+  text: string; // of the step that has just been made
 }
 
-export function Player({ frames, playback, what, end }: PlayerProps): JSX.Element {
+export function Player({ playback, what, text }: PlayerProps): JSX.Element {
   const { step, last, playing, show, toggle } = playback;
   const calm = useCalm(); // then nothing plays by itself
   const id = useId();
@@ -43,7 +40,8 @@ export function Player({ frames, playback, what, end }: PlayerProps): JSX.Elemen
         />
       </div>
       <p class="step" id={id} aria-live={playing ? 'off' : 'polite'}>
-        {stepText(frames, step, end)}
+        {step > 0 && `Step ${step} of ${last}: `}
+        {text}
       </p>
     </div>
   );

@@ -6,51 +6,41 @@ import { useNow } from '../clock';
 import { type Action, roomActions } from '../controls/actions';
 import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
-import { Rooms } from '../rooms';
-import type { FacilitatorView, RoomRow } from '../protocol';
+import type { FacilitatorView, RoomDetail, RoomRow } from '../protocol';
 import { Explained } from '../tip';
 import { attention, endText, kStages, roomTitle } from '../words';
 import { RoomPicture } from './picture';
 
-interface LiveProps {
+interface RoomProps {
   view: FacilitatorView;
-  selected: string | null;
+  room: RoomRow;
   mayAct: boolean;
   onSelect: (room: string) => void;
-  onAct: (action: Action, room: string) => void;
+  onAct: (action: Action) => void;
 }
 
-export function Live({ view, selected, mayAct, onSelect, onAct }: LiveProps): JSX.Element {
-  const room = view.rooms.find(({ id }) => id === selected);
-  if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Create one under Set-up." />;
-  if (!room) return <Rooms view={view} selected={null} onOpen={onSelect} />;
+export function Room(props: RoomProps): JSX.Element {
+  const { view, room } = props;
   return (
     <>
-      <RoomBar view={view} room={room} mayAct={mayAct} onSelect={onSelect} onAct={onAct} />
-      {view.room?.id === room.id ? (
-        <RoomView view={view} room={room} mayAct={mayAct} onAct={onAct} />
-      ) : (
-        <Nothing text="Loading the room..." />
-      )}
+      <RoomBar {...props} />
+      {view.room?.id === room.id ? <RoomView key={room.id} {...props} detail={view.room} /> : <p class="nothing">Loading the room...</p>}
     </>
   );
 }
 
-function Nothing({ text }: { text: string }): JSX.Element {
-  return <p class="nothing">{text}</p>;
-}
-
-interface RoomBarProps extends Omit<LiveProps, 'selected'> {
-  room: RoomRow;
-}
-
-function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Element {
+function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomProps): JSX.Element {
   const now = useNow();
   const worry = attention(room);
   const { period } = room;
   return (
     <div class="room-bar">
       <h2 class="visually-hidden">{roomTitle(room)}</h2>
+      {view.rooms.length > 1 && (
+        <button type="button" class="link" onClick={() => onSelect('')}>
+          All rooms
+        </button>
+      )}
       <label class="visually-hidden" for="room-choice">
         Room
       </label>
@@ -91,7 +81,7 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
               type="button"
               class={action.isDangerous ? 'danger' : action.command === 'start' || action.command === 'resume' ? 'primary' : undefined}
               aria-haspopup="dialog"
-              onClick={() => onAct(action, room.id)}
+              onClick={() => onAct(action)}
             >
               {action.label}
             </button>
@@ -102,17 +92,8 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
   );
 }
 
-interface RoomViewProps {
-  view: FacilitatorView;
-  room: RoomRow;
-  mayAct: boolean;
-  onAct: (action: Action, room: string) => void;
-}
-
-function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
+function RoomView({ view, room, mayAct, onAct, detail }: RoomProps & { detail: RoomDetail }): JSX.Element {
   const [opened, setOpened] = useState<number | null>(null);
-  const detail = view.room;
-  if (!detail) return <Nothing text="Loading the room..." />;
   const seat = room.seats.find((one) => one.seat === opened);
   return (
     <>
@@ -130,7 +111,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
           mayAct={mayAct}
           onAct={(action) => {
             setOpened(null);
-            onAct(action, room.id);
+            onAct(action);
           }}
           onClose={() => setOpened(null)}
         />
