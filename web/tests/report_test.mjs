@@ -288,7 +288,7 @@ describe('a report', () => {
   it('belief spheres follow the slider, the arrow keys and the choice of team', async () => {
     await withReport({ width: 1280, dark: false, reducedMotion: true }, async ({ page }) => {
       if (!(await page.$('#figure-beliefs'))) return;
-      const label = () => page.getAttribute('#figure-beliefs .chart', 'aria-label');
+      const label = () => page.getAttribute('#sphere-period', 'aria-valuetext');
       const path = () => page.$eval('#figure-beliefs svg', (svg) => svg.innerHTML);
       assert.match(await label(), /after period (\d+) of \1/);
       const first = await path();
@@ -297,14 +297,14 @@ describe('a report', () => {
       assert.match(await label(), /before teaching/);
       await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, first);
       const second = await path();
-      await page.focus('#sphere-turn');
+      await page.focus('#figure-beliefs .globes');
       await page.keyboard.press('ArrowRight');
       await page.waitForFunction(
         (before) => document.querySelector('#figure-beliefs svg').innerHTML !== before,
         second,
       );
       const third = await path();
-      await page.focus('#sphere-zoom');
+      await page.focus('#figure-beliefs .turners input >> nth=2');
       await page.keyboard.press('ArrowRight');
       await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, third);
       assert.equal(

@@ -121,14 +121,7 @@ export const policyText = (policy: string): string => kPolicies[policy] ?? polic
 export const kTerms = {
   p_bec:
     'p(BEC): the share of a belief that lies in the BEC region, that is, the probability that the learner would reproduce the robot\u2019s whole policy.',
-  bec: 'BEC region (behaviour equivalence class): all reward weights with which the robot would behave exactly as it does.',
-  prior: 'Prior: the reward weights that were possible before the first demonstration.',
-  truth: 'True reward: the robot\u2019s own reward weights, as a direction.',
-  common: 'Common belief: what all active members are assumed to know.',
-  joint: 'Joint belief: what the active members know when they pool their knowledge.',
-  belief: 'Belief: the reward weights that the teacher thinks a learner considers possible. Each dot is one of 300 particles.',
   gain: 'Information gain: how much the demonstration shrinks the region of reward weights that are still possible under the belief being taught (ratio of the areas before and after; larger is better).',
-  regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
   component: 'Knowledge component: a part of the reward that is taught and tested separately, for example one feature against the cost of a step.',
   forecast: 'Forecast: if the study has imagined sessions (record.forecast), from those that had got as far, at the pace of this session so far, with the central 80\u00a0%. Otherwise it assumes that each open component takes as many periods as the earlier ones did on average; the range is then based on the shortest and the longest period so far.',
   composition: 'Composition: the type of learner that the teacher assumes for each member, one letter per member. Set-up lists the types.',

@@ -56,11 +56,8 @@ const kConfig = {
   text: { font: kFont, fill: color('text') },
 };
 
-const isVega = (spec: Spec): boolean => String(spec.$schema).includes('/vega/');
-
 // Compiles Vega-Lite; `usermeta.legend` of a figure is the one legend of its strategies.
 export function toVega(spec: Spec): VegaSpec {
-  if (isVega(spec)) return { ...spec, config: kConfig } as unknown as VegaSpec;
   const { usermeta, ...rest } = spec;
   const vega = compile(rest as unknown as TopLevelSpec, { config: kConfig as never }).spec;
   const legend = usermeta as { legend?: Spec } | undefined;

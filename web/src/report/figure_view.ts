@@ -16,7 +16,7 @@ const kTall = 0.5; // height to width of figures that stand beside each other on
 export interface Saves {
   file: string;
   what: string; // "figure 3", for the buttons' names
-  spec(width: number): Spec;
+  spec(width: number): Spec | string; // or an SVG
   table: Table;
   raw?: Figure['raw'];
 }

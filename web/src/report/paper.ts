@@ -1,6 +1,7 @@
 // Figures as files for a paper: as wide as a column or a page, with text of 7 to 8 points, in light colours.
 import { View, parse } from 'vega';
 import { expressionInterpreter } from 'vega-interpreter';
+import { el } from '../shared/dom';
 import { type Spec, toVega } from './chart';
 import { inLight } from '../shared/theme';
 
@@ -46,22 +47,38 @@ function svgFile(text: string, scale: number): Blob {
   return new Blob([sized], { type: 'image/svg+xml' });
 }
 
-// `spec` draws the figure at a width in pixels.
-export async function paperFile(spec: (width: number) => Spec, mm: number, format: Format): Promise<Blob> {
-  const points = mm * kPointsPerMm;
-  const view = lightView(spec(Math.floor(points / kPointsPerPixel)));
+async function svgOf(spec: Spec): Promise<string> {
+  const view = lightView(spec);
   const svg = await view.toSVG();
+  view.finalize();
+  return svg;
+}
+
+async function canvasOf(svg: string, scale: number): Promise<HTMLCanvasElement> {
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const canvas = el('canvas', { width: Math.round(scale * image.width), height: Math.round(scale * image.height) });
+  const to = canvas.getContext('2d');
+  if (!to) throw new Error('the browser draws nothing');
+  to.fillStyle = '#ffffff';
+  to.fillRect(0, 0, canvas.width, canvas.height);
+  to.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas;
+}
+
+// `spec` draws the figure at a width in pixels.
+export async function paperFile(spec: (width: number) => Spec | string, mm: number, format: Format): Promise<Blob> {
+  const points = mm * kPointsPerMm;
+  const drawn = spec(Math.floor(points / kPointsPerPixel));
+  const svg = typeof drawn === 'string' ? inLight(drawn) : await svgOf(drawn);
   const width = Number(/^<svg [^>]*?width="([\d.]+)"/.exec(svg)?.[1]);
   // A figure that needs more room than it was given is made smaller.
   const scale = Math.min(kPointsPerPixel, points / width);
-  try {
-    if (format === 'svg') return svgFile(svg, scale);
-    const canvas = (await view.toCanvas((scale * kDpi) / 72)) as unknown as HTMLCanvasElement;
-    const png = await new Promise<Blob>((resolve, reject) => {
-      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no PNG'))), 'image/png');
-    });
-    return await withResolution(png);
-  } finally {
-    view.finalize();
-  }
+  if (format === 'svg') return svgFile(svg, scale);
+  const canvas = await canvasOf(svg, (scale * kDpi) / 72);
+  const png = await new Promise<Blob>((resolve, reject) => {
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no PNG'))), 'image/png');
+  });
+  return withResolution(png);
 }

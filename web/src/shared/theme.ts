@@ -40,9 +40,6 @@ const kLight: Scheme = {
   t5: '#9a6f00',
   t6: '#2b8cbe',
   t7: '#1c2127',
-  s2: '#d55e00',
-  s3: '#00875f',
-  s4: '#b24a8b',
   k0: '#a9c3dc',
   k1: '#5b8db8',
   k2: '#1f5a8c',
@@ -50,12 +47,6 @@ const kLight: Scheme = {
   k4: '#c9b79c',
   k5: '#7d6a4b',
   bec: '#e69f00',
-  truth: '#1c2127',
-  own: '#332896',
-  teacher: '#6b7280',
-  common: '#12643e',
-  joint: '#c67d9f',
-  sphere: '#fafbfc',
 };
 const kDark: Scheme = {
   ...boardScheme(1),
@@ -78,9 +69,6 @@ const kDark: Scheme = {
   t5: '#e3b505',
   t6: '#9ad0f5',
   t7: '#f4f4f4',
-  s2: '#f28a3c',
-  s3: '#2fc18f',
-  s4: '#e08fc0',
   k0: '#2f5f8a',
   k1: '#5f97c7',
   k2: '#a3cbee',
@@ -88,12 +76,6 @@ const kDark: Scheme = {
   k4: '#8a7651',
   k5: '#cbb68f',
   bec: '#e6a817',
-  truth: '#ffffff',
-  own: '#628bdf',
-  teacher: '#aab2bd',
-  common: '#63ed96',
-  joint: '#9f5088',
-  sphere: '#191d22',
 };
 
 export const color = (name: string): string => `var(--${name})`;

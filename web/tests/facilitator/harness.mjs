@@ -18,7 +18,7 @@ export async function openDeep(page) {
   const deep = page.locator('.deep');
   await deep.waitFor();
   if (!(await deep.evaluate((box) => box.open))) await deep.locator('summary').first().click();
-  await page.waitForSelector('.live .globe svg');
+  await page.waitForSelector('.live .globe .ball');
 }
 
 export const received = (mock, type) => mock.commands.filter(({ t }) => t === type).map(({ body }) => body);

@@ -41,7 +41,7 @@ export function lookTests({ withPage, violations, shoot }) {
         assert.ok(box && box.y >= 0 && box.y + box.height <= 800, `${part} ends at ${box?.y + box?.height}`);
         assert.ok(box.x >= 0 && box.x + box.width <= 1280, `${part} ends at ${box.x + box.width}`);
       }
-      const sizes = await page.$$eval('.globe svg', (all) => all.map((svg) => svg.getBoundingClientRect().width));
+      const sizes = await page.$$eval('.globe .ball', (all) => all.map((ball) => ball.getBoundingClientRect().width));
       assert.ok(Math.min(...sizes) >= 80, `spheres of ${Math.min(...sizes)} px`);
     });
   });
@@ -92,7 +92,7 @@ export function lookTests({ withPage, violations, shoot }) {
       await page.focus('.turners input >> nth=1');
       await page.keyboard.press('ArrowUp');
       await changed('the slider');
-      const box = await page.locator('.globe svg').nth(2).boundingBox();
+      const box = await page.locator('.globe .ball').nth(2).boundingBox();
       await page.mouse.move(box.x + 40, box.y + 60);
       await page.mouse.down();
       await page.mouse.move(box.x + 90, box.y + 80);
@@ -109,9 +109,10 @@ export function lookTests({ withPage, violations, shoot }) {
       );
       assert.deepEqual(counts, [300, 300, 300, 300, 300]);
       const outside = await page.$$eval('.globe .dots', (all) =>
-        all.flatMap((path) =>
-          [...path.getAttribute('d').matchAll(/M(-?[\d.]+) (-?[\d.]+)/g)].filter(([, x, y]) => Math.hypot(x, y) > 100.2),
-        ).length,
+        all.flatMap((path) => {
+          const radius = Number(path.closest('.globe').querySelector('.ball').getAttribute('r'));
+          return [...path.getAttribute('d').matchAll(/M(-?[\d.]+) (-?[\d.]+)/g)].filter(([, x, y]) => Math.hypot(x, y) > radius + 0.2);
+        }).length,
       );
       assert.equal(outside, 0);
     });
@@ -122,11 +123,12 @@ export function lookTests({ withPage, violations, shoot }) {
       await openRoom(page, 'Room A1');
       await page.focus('.globes');
       const seen = new Set();
+      const radius = Number(await page.getAttribute('.globe .ball', 'r'));
       for (let i = 0; i < 36; i += 1) {
         const path = (await page.getAttribute('.globe .bec-region', 'd')) ?? '';
         const places = [...path.matchAll(/(-?[\d.]+),(-?[\d.]+)/g)].map(([, x, y]) => Math.hypot(Number(x), Number(y)));
-        assert.ok(places.every((distance) => distance <= 100.2), path);
-        seen.add(path === '' ? 'behind' : places.some((distance) => distance > 99.5) ? 'at the rim' : 'in front');
+        assert.ok(places.every((distance) => distance <= radius + 0.2), path);
+        seen.add(path === '' ? 'behind' : places.some((distance) => distance > radius - 0.5) ? 'at the rim' : 'in front');
         await page.keyboard.press('ArrowRight');
       }
       assert.deepEqual([...seen].sort(), ['at the rim', 'behind', 'in front']);

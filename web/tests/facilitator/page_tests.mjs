@@ -32,7 +32,7 @@ export function pageTests({ withPage, violations, shoot }) {
       await page.evaluate(() => document.querySelector('.banner button')?.click()); // it may be back already
       await page.waitForSelector('.banner', { state: 'detached' });
       await page.waitForSelector('.room-buttons');
-      await page.waitForSelector('.globe svg');
+      await page.waitForSelector('.globe .ball');
       assert.equal(await page.locator('.globe').count(), 14, 'the room is selected again');
     });
   });

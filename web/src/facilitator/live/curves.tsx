@@ -3,7 +3,7 @@ import type { ComponentChildren, JSX } from 'preact';
 import type { RoomDetail } from '../protocol';
 import { Explained } from '../tip';
 import { beliefKind, memberOf } from './beliefs';
-import { useWidth } from './width';
+import { useWidth } from '../../shared/width';
 
 const kBetween = 14; // px between the charts
 const kNarrow = 560; // px below which the charts are under each other

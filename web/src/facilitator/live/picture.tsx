@@ -10,7 +10,7 @@ import { LessonPanel } from './lesson_now';
 import { Now } from './now';
 import { Progress } from './progress';
 import { Spheres } from './spheres';
-import { useWindowHeight } from './width';
+import { useWindowHeight } from '../../shared/width';
 
 // Pixels, as in live.css. What the table leaves of the window is for spheres and charts, so that everything is
 // visible without scrolling.

@@ -12,9 +12,9 @@ import { matrixFigures } from '../figures/matrix';
 import { outcomeFigures } from '../figures/outcomes';
 import { timeFigures } from '../figures/time';
 import { figureView } from '../figure_view';
-import { spheresFigure } from '../spheres/spheres';
 import type { Study } from '../study';
 import type { Section } from './section';
+import { spheresSection } from './spheres';
 
 const kSections: { id: string; title: string; figures(study: Study): Figure[] }[] = [
   { id: 'matrices', title: 'Settings against each other', figures: matrixFigures },
@@ -72,7 +72,9 @@ export function figureSections(study: Study, numbers: FigureNumbers): Section[] 
     if (views.length > 0) sections.push({ id, title, content: views });
   }
   const { beliefs } = study.report;
-  const spheres = beliefs ? spheresFigure(beliefs, numbers, study.report.study, study.words) : null;
-  if (spheres) sections.push({ id: 'beliefs', title: 'Belief spheres', content: [spheres] });
+  if (beliefs?.teams[0]) {
+    const spheres = spheresSection({ beliefs, number: numbers.next(), study: study.report.study, words: study.words });
+    sections.push({ id: 'beliefs', title: 'Belief spheres', content: [spheres] });
+  }
   return sections;
 }

@@ -1,11 +1,12 @@
 // Orthographic drawing of the unit sphere: lines, regions and points as SVG paths.
 import { geoArea, geoGraticule, geoOrthographic, geoPath, type GeoPermissibleObjects } from 'd3-geo';
-import { middle, normalise, toLonLat, type LonLat, type Vector } from '../../shared/sphere';
+import { middle, normalise, toLonLat, type LonLat, type Vector } from './sphere';
 
-// Longitude and latitude that face the viewer, degrees.
+// Longitude and latitude that face the viewer, degrees, and how much larger than its frame a globe is drawn.
 export interface Turn {
   lambda: number;
   phi: number;
+  zoom: number;
 }
 
 export interface Placed {
@@ -21,41 +22,35 @@ export interface Globe {
 }
 
 const kRadians = Math.PI / 180;
+const kFromPrior = 0.6;
 
 export const asVector = ([x = 0, y = 0, z = 0]: number[]): Vector => normalise([x, y, z]);
 
-function turnTo(v: Vector): Turn {
-  const [lambda, phi] = toLonLat(v);
-  return { lambda, phi };
-}
-
-const kFromPrior = 0.6;
-
-// Between the prior's middle and the true reward: most of the prior faces the viewer, and the region that
-// matters is not at the edge.
-export function firstTurn(truth: number[], prior: number[][]): Turn {
+// Between the prior's middle and the true reward: most of the prior faces the viewer, and the region that matters is
+// not at the edge. The larger the zoom, the nearer to the true reward, or it would leave the frame.
+export function firstTurn(truth: number[], prior: number[][], zoom = 1): Turn {
   const [a, b, c] = asVector(truth);
-  if (prior.length < 3) return turnTo([a, b, c]);
-  const [x, y, z] = middle(prior.map(asVector));
-  return turnTo(asVector([kFromPrior * x + a, kFromPrior * y + b, kFromPrior * z + c]));
+  const [x, y, z] = prior.length < 3 ? [a, b, c] : middle(prior.map(asVector));
+  const far = kFromPrior * Math.max(0, 2 - zoom);
+  const [lambda, phi] = toLonLat([far * x + a, far * y + b, far * z + c]);
+  return { lambda, phi, zoom };
 }
 
-export function makeGlobe({ lambda, phi }: Turn, radius: number): Globe {
-  const projection = geoOrthographic().rotate([-lambda, -phi]).scale(radius).translate([0, 0]);
-  const path = geoPath(projection).digits(1);
+export function makeGlobe({ lambda, phi, zoom }: Turn, radius: number): Globe {
+  const scale = radius * zoom;
+  const path = geoPath(geoOrthographic().rotate([-lambda, -phi]).scale(scale).translate([0, 0])).digits(1);
   const [cl, sl] = [Math.cos(lambda * kRadians), Math.sin(lambda * kRadians)];
   const [cp, sp] = [Math.cos(phi * kRadians), Math.sin(phi * kRadians)];
   return {
     path: (shape) => path(shape) ?? '',
     place: ([x, y, z]) => {
       const ahead = cl * x + sl * y;
-      return { x: radius * (cl * y - sl * x), y: -radius * (cp * z - sp * ahead), z: radius * (cp * ahead + sp * z) };
+      return { x: scale * (cl * y - sl * x), y: -scale * (cp * z - sp * ahead), z: scale * (cp * ahead + sp * z) };
     },
   };
 }
 
-const closed = (corners: number[][]): LonLat[] =>
-  [...corners, ...corners.slice(0, 1)].map((corner) => toLonLat(asVector(corner)));
+const closed = (corners: number[][]): LonLat[] => [...corners, ...corners.slice(0, 1)].map((corner) => toLonLat(asVector(corner)));
 
 // The closed line through the corners.
 export function outlineOf(corners: number[][]): GeoPermissibleObjects {
@@ -87,12 +82,10 @@ export function dotsPath(points: Vector[], { place }: Globe, front: boolean): st
 export function unpack(text: string): Vector[] {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const view = new DataView(bytes.buffer);
-  const count = Math.floor(bytes.byteLength / 6);
   const read = (place: number): number => view.getInt16(place, true) / 32767;
-  return Array.from({ length: count }, (_, i) => [read(6 * i), read(6 * i + 2), read(6 * i + 4)]);
+  return Array.from({ length: Math.floor(bytes.byteLength / 6) }, (_, i) => [read(6 * i), read(6 * i + 2), read(6 * i + 4)]);
 }
 
-export function turned(turn: Turn, dx: number, dy: number): Turn {
-  const lambda = ((((turn.lambda - dx + 180) % 360) + 360) % 360) - 180;
-  return { lambda, phi: Math.max(-90, Math.min(90, turn.phi + dy)) };
+export function turned({ lambda, phi, zoom }: Turn, dx: number, dy: number): Turn {
+  return { lambda: ((((lambda - dx + 180) % 360) + 360) % 360) - 180, phi: Math.max(-90, Math.min(90, phi + dy)), zoom };
 }

@@ -1,6 +1,6 @@
 // What somebody would think whose belief is one point of a sphere.
-import type { Vector } from '../../shared/sphere';
-import { plural } from '../words';
+import type { Vector } from '../shared/sphere';
+import { plural } from './words';
 
 const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = ([a, b, c]: Vector, [x, y, z]: Vector): Vector => [b * z - c * y, c * x - a * z, a * y - b * x];
