@@ -67,6 +67,7 @@ export function BoardView(props: BoardProps): JSX.Element {
   const first = decisive?.frame ?? 0;
   const ground = useMemo(() => <Ground domain={domain} legend={props.legend} board={board} />, [domain, props.legend, board.map, board.fences]);
   const others = other && drawn > first ? other.slice(0, Math.min(drawn, props.otherClosedAt ?? drawn) + 1) : [];
+  const thingsAt = ([x, y]: Place): string[] => props.legend.parts(board.map?.[y - 1]?.charAt(x - 1) ?? '').map(({ name }) => name);
   const drawing = (
     <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} {...(label === '' ? { 'aria-hidden': true } : { role: 'img', 'aria-label': label })}>
       {ground}
@@ -78,7 +79,7 @@ export function BoardView(props: BoardProps): JSX.Element {
       {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} legend={props.legend} kind={otherKind} />}
       <Mover frame={frame} legend={props.legend} />
       {props.fan && <Fan arms={props.fan} />}
-      {props.chips && <Chips chips={props.chips} frames={board.frames} other={other ?? []} first={first} width={width} height={height} />}
+      {props.chips && <Chips chips={props.chips} frames={board.frames} other={other ?? []} first={first} thingsAt={thingsAt} width={width} height={height} />}
     </svg>
   );
   const overview = { domain, legend: props.legend, board, frame, own, other: others.slice(first), kind, otherKind };

@@ -1,11 +1,13 @@
 // What one path has more of than the other, written on it: "+1 rubble".
 import type { JSX } from 'preact';
-import { centre, kMargin, type Point } from './geometry';
-import type { Frame, PathKind } from './types';
+import { centre, kMargin, kUnit, type Point } from './geometry';
+import type { Frame, PathKind, Place } from './types';
 
 export interface Chip {
   kind: PathKind;
   text: string;
+  feature: number; // what is counted, and
+  thing: string; // what a cell has on which it counts, unless every step does
 }
 
 const kSeen = 520; // pixels that a board is wide where there is room, and
@@ -16,19 +18,20 @@ interface Props {
   frames: Frame[];
   other: Frame[];
   first: number; // the frame at which the paths separate
+  thingsAt: (cell: Place) => string[];
   width: number;
   height: number;
 }
 
-export function Chips({ chips, frames, other, first, width, height }: Props): JSX.Element {
+export function Chips({ chips, frames, other, first, thingsAt, width, height }: Props): JSX.Element {
   const size = Math.max(5.5, Math.min(21, (kText * width) / Math.min(kSeen, window.innerWidth)));
   const taken: Point[] = [];
   return (
     <g class="chips" aria-hidden="true">
-      {chips.map(({ kind, text }) => {
+      {chips.map(({ kind, text, feature, thing }) => {
         const [way, away] = kind === 'own' ? [frames, other] : [other, frames];
         const half = { x: (text.length * size * 0.56 + size * 1.2) / 2, y: size * 0.85 };
-        const at = freeOf(middle(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
+        const at = freeOf(counting(way.slice(first), away.slice(first), feature, thing, thingsAt) ?? middle(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
         const x = Math.max(half.x - kMargin, Math.min(width - 2 * kMargin - half.x + kMargin, at.x));
         const y = Math.max(half.y - kMargin, Math.min(height - 2 * kMargin - half.y + kMargin, at.y));
         taken.push({ x, y });
@@ -43,6 +46,22 @@ export function Chips({ chips, frames, other, first, width, height }: Props): JS
       })}
     </g>
   );
+}
+
+// Below the middle of the cell on which it counts: of several that of the middle. Nothing where every step counts.
+function counting(way: Frame[], away: Frame[], feature: number, thing: string, thingsAt: (cell: Place) => string[]): Point | null {
+  const cellsOf = (frames: Frame[]): Place[] =>
+    frames.flatMap(({ robot, counts }, t): Place[] => {
+      if (!robot || !counts?.[feature]) return [];
+      const cells = [frames[t + 1]?.robot ?? robot, robot]; // entered, or left
+      return [cells.find((cell) => thingsAt(cell).includes(thing)) ?? cells.find((cell) => thingsAt(cell).length > 0) ?? cells[0] ?? robot];
+    });
+  const [all, others] = [cellsOf(way), new Set(cellsOf(away).map(String))];
+  const own = all.filter((cell) => !others.has(String(cell)));
+  const cell = (own.length > 0 ? own : all)[Math.floor((own.length || all.length) / 2)];
+  if (!cell || all.length === way.length - 1) return null;
+  const { x, y } = centre(cell);
+  return { x, y: y + 0.3 * kUnit };
 }
 
 // The place in the middle of what a way has to itself: far from the other one, and not where a robot ends.

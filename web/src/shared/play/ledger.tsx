@@ -78,6 +78,6 @@ export function chipsOf(domain: MapDomain, robot: number[], other: number[], kin
     const more = (robot[k] ?? 0) - (other[k] ?? 0);
     const n = Math.abs(more);
     if (n < 0.005) return [];
-    return [{ kind: more > 0 ? 'own' : kind, text: shortened(`+${rounded(n)} ${n === 1 ? one.one : one.many}`) }];
+    return [{ kind: more > 0 ? 'own' : kind, text: shortened(`+${rounded(n)} ${n === 1 ? one.one : one.many}`), feature: k, thing: one.one }];
   });
 }
