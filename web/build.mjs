@@ -1,12 +1,12 @@
 // Makes a page's template: one HTML file which holds the script, the style and the licences of
 // everything that is in it, and needs no network.
 //
-//   node build.mjs --out FILE [--page report|lesson|file] [--modules DIR] [--engine DIR]
+//   node build.mjs --out FILE [--page report|audit|lesson|file] [--modules DIR] [--engine DIR]
 //
 // DIR is a folder with node_modules (this one unless said otherwise), so that a build outside the
 // source tree leaves no file here. A lesson file (the page `file`) also holds the engine, which DIR of
-// --engine has as kith_engine.js and kith_engine.wasm. kith puts a document (schema kith.report/1 or
-// kith.curriculum/1) where DATA_PLACEHOLDER stands and the escaped title where TITLE_PLACEHOLDER
+// --engine has as kith_engine.js and kith_engine.wasm. kith puts a document (schema kith.report/1,
+// kith.audit/1 or kith.curriculum/1) where DATA_PLACEHOLDER stands and the escaped title where TITLE_PLACEHOLDER
 // stands, each once.
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -21,7 +21,7 @@ const DATA_PLACEHOLDER = '/*KITH_REPORT_JSON*/';
 const TITLE_PLACEHOLDER = '/*KITH_REPORT_TITLE*/';
 const MAX_BYTES = 2_000_000;
 // Per page what it is and what it draws, as people without scripts are told.
-const PICTURES = { report: ['report', 'figures'], lesson: ['lesson', 'boards'], file: ['lesson', 'boards'] };
+const PICTURES = { report: ['report', 'figures'], audit: ['audit', 'boards'], lesson: ['lesson', 'boards'], file: ['lesson', 'boards'] };
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
@@ -35,7 +35,7 @@ const { values } = parseArgs({
 const isFile = values.page === 'file';
 const source = join('src', values.page);
 if (!values.out || !Object.hasOwn(PICTURES, values.page) || isFile !== (values.engine !== undefined)) {
-  console.error('usage: node build.mjs --out FILE [--page report|lesson|file] [--modules DIR] [--engine DIR]');
+  console.error('usage: node build.mjs --out FILE [--page report|audit|lesson|file] [--modules DIR] [--engine DIR]');
   process.exit(2);
 }
 const modulesRoot = resolve(values.modules ?? here);

@@ -14,7 +14,7 @@ import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
-import { launch, openReport, requireFrom, violations } from './browser.mjs';
+import { launch, openPage, openReport, requireFrom, violations } from './browser.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -315,6 +315,25 @@ describe('a report', () => {
       await page.selectOption('#sphere-team', { index: (await page.$$('#sphere-team option')).length - 1 });
       assert.match(await label(), /after period (\d+) of \1/);
     });
+  });
+
+  it('an audit says who needs what first, in words, and fits a phone', async () => {
+    if (!values.kith) return;
+    const audit = join(folder, 'audit.html');
+    execFileSync(values.kith, ['audit', '-q', join(folder, 'run'), '-o', audit], { stdio: 'inherit' });
+    for (const look of [{ width: 1280, dark: true }, { width: 320, dark: false }]) {
+      const { context, page, trouble } = await openPage(browser, pathToFileURL(audit).href, look);
+      const people = await page.$$eval('.person', (all) => all.map((one) => [...one.querySelectorAll('.verdict')].map((verdict) => verdict.textContent)));
+      assert.ok(people.length > 10 && people.every((verdicts) => verdicts.length === 3), `${people.length} people`);
+      const worst = people.map((verdicts) => verdicts.includes('has a misconception'));
+      assert.deepEqual(worst, [...worst].sort((a, b) => Number(b) - Number(a)), 'those who need something first are on top');
+      assert.match(await page.textContent('.first'), /^Show that .+[.] Probably thinks that .+[.]$/);
+      assert.ok(await page.$('.evidence svg .way.own'), 'the robot\u2019s path on the board to show');
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
+      assert.deepEqual(await violations(page, axeSource, ['.board']), []);
+      assert.deepEqual(trouble, []);
+      await context.close();
+    }
   });
 
   // The last one, as it leaves the page in another theme.

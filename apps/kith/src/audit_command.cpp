@@ -7,6 +7,7 @@
 
 #include "build_facts.hpp"
 #include "command.hpp"
+#include "embedded.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/bec/memory_needs.hpp"
@@ -245,9 +246,14 @@ class AuditText {
 
 int show(const Atlas& atlas, const AuditReport& report, const AuditCommandOptions& options, Console& console) {
   constexpr std::size_t kFew = 30;  // people; of more, the text has the summary only
-  if (!options.out.empty()) write_page("audit", audit_page(atlas, report, program_name()), options.out, console);
+  auto document = audit_json(atlas, report, program_name());
+  if (!options.out.empty()) {
+    auto shown = document;
+    shown.erase("source");  // where the folder is on this machine
+    write_page("audit", page_with(shown.dump(-1, ' ', true), detail::kAuditPage), options.out, console);
+  }
   if (console.json()) {
-    console.print_json(audit_json(atlas, report, program_name()));
+    console.print_json(document);
   } else if (options.out.empty()) {
     const bool everybody = report.people.size() <= kFew;
     console.print(AuditText{atlas, report, console}.text(everybody));

@@ -21,6 +21,7 @@ extern const std::string_view kAnalysisScript;
 // The pages that show a report and a curriculum, made from web/; empty if kith was built without pages.
 extern const std::string_view kReportPage;
 extern const std::string_view kLessonPage;
+extern const std::string_view kAuditPage;
 // That of a lesson file, with its engine; empty without -DKITH_LESSON=ON.
 extern const std::string_view kLessonFilePage;
 extern const std::string_view kLessonStudy;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -218,9 +219,10 @@ std::string advice_in_words(const ComponentAudit& audit) {
 
 namespace {
 
-Json start_json(const Atlas& atlas, std::optional<StartIndex> demo) {
+Json start_json(const Atlas& atlas, std::optional<StartIndex> demo, bool has_path) {
   if (!demo) return nullptr;
   auto json = board_json(atlas.domain(), atlas.id(*demo));
+  if (has_path) json.update(path_json(atlas.domain(), atlas.id(*demo).mdp, atlas.trajectory(*demo)));
   json["mdp"] = atlas.id(*demo).mdp.value();
   json["start_state"] = atlas.id(*demo).start.value();
   return json;
@@ -245,8 +247,16 @@ Json misconception_json(const Atlas& atlas, const LikelyMisconception& misconcep
           {"thinks", misconception.thinks},
           {"fact", misconception.fact},
           {"answers", answers},
-          {"show", start_json(atlas, misconception.show)},
+          {"show", start_json(atlas, misconception.show, true)},
           {"reason", misconception.reason.empty() ? Json{} : Json(misconception.reason)}};
+}
+
+// The name of the folder, without where it is on this machine.
+std::string name_of_folder(const std::string& source) {
+  auto path = std::filesystem::path{source}.lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const auto name = path.filename().string();
+  return name.empty() || name == "." || name == ".." ? "this study" : name;
 }
 
 Json agreement_json(const Agreement& agreement) {
@@ -268,7 +278,7 @@ Json component_json(const Atlas& atlas, const ComponentAudit& audit) {
       {"tests", audit.tests},
       {"correct", audit.correct},
       {"misconception", audit.misconception ? misconception_json(atlas, *audit.misconception) : Json{}},
-      {"test", start_json(atlas, audit.test)},
+      {"test", start_json(atlas, audit.test, false)},
       {"test_after",
        audit.understanding == Understanding::kUnderstands && audit.test_after > 0 ? Json(audit.test_after) : Json{}},
       {"advice", advice.empty() ? Json{} : Json(advice)}};
@@ -306,7 +316,9 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
   for (const auto& person : report.people) {
     Json audits = Json::array();
     for (const auto& audit : person.audit.components) audits.push_back(component_json(atlas, audit));
-    people.push_back({{"group", person.group},
+    const auto caution = caution_in_words(person.audit);
+    people.push_back({{"title", title_of(person)},
+                      {"group", person.group},
                       {"team", person.team == 0 ? Json{} : Json(person.team)},
                       {"room", person.room.empty() ? Json{} : Json(person.room)},
                       {"member", person.member},
@@ -318,6 +330,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"explained", person.audit.is_explained},
                       {"learning", person.audit.learning},
                       {"guessing", person.audit.guessing},
+                      {"caution", caution.empty() ? Json{} : Json(caution)},
                       {"components", std::move(audits)}});
     if (person.audit.believes_older) people.back()["believes_older"] = *person.audit.believes_older;
     if (person.kinds.empty()) continue;
@@ -333,11 +346,14 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
     last = person.group;
     groups.push_back({{"group", last},
                       {"agreement", agreement_json(agreement_of(report, last))},
+                      {"says", agreement_in_words(report, last)},
                       {"unexplained", num_unexplained(report, last)}});
   }
 
   const auto& options = report.options;
+  const auto older = older_in_words(report);
   return {{"schema", "kith.audit/1"},
+          {"title", "Who understands what: " + name_of_folder(report.source)},
           {"program", program},
           {"source", report.source},
           {"domain", board_domain_json(atlas.domain())},
@@ -346,6 +362,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
           {"coverage", options.level.coverage},
           {"forgetting", options.forgetting},
           {"agreement", agreement_json(agreement_of(report))},
+          {"says", agreement_in_words(report) + (older.empty() ? "" : " " + older)},
           {"unexplained", num_unexplained(report)},
           {"groups", std::move(groups)},
           {"components", std::move(components)},

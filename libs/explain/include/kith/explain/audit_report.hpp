@@ -76,10 +76,8 @@ struct SharedMisconception {
 /// next lesson". Empty if nothing is to do.
 [[nodiscard]] std::string advice_in_words(const ComponentAudit& audit);
 
-/// The document kith.audit/1 (docs/json.md). @param program  that made it, such as "kith 0.1.0".
+/// The document kith.audit/1 (docs/json.md), which the audit's page draws. @param program  that made it, such as
+/// "kith 0.1.0".
 [[nodiscard]] Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string& program);
-
-/// One HTML page without scripts, which loads nothing: a summary, then everybody in turn, with boards.
-[[nodiscard]] std::string audit_page(const Atlas& atlas, const AuditReport& report, const std::string& program);
 
 }  // namespace kith
