@@ -47,6 +47,8 @@ const kLight: Scheme = {
   k4: '#c9b79c',
   k5: '#7d6a4b',
   bec: '#e69f00',
+  'third-own': '#6b1fb1',
+  'third-other': '#1c2127',
 };
 const kDark: Scheme = {
   ...boardScheme(1),
@@ -76,6 +78,8 @@ const kDark: Scheme = {
   k4: '#8a7651',
   k5: '#cbb68f',
   bec: '#e6a817',
+  'third-own': '#d3adff',
+  'third-other': '#f1f3f5',
 };
 
 export const color = (name: string): string => `var(--${name})`;
@@ -99,6 +103,8 @@ export function themeSheet(): string {
     `@media (prefers-color-scheme:dark){:root{${rules(kDark)};color-scheme:dark}}`,
     `:root[data-theme=light]{${rules(kLight)};color-scheme:light}`,
     `:root[data-theme=dark]{${rules(kDark)};color-scheme:dark}`,
+    // Where tiles are blue or orange, as the paths are elsewhere.
+    ':root:root:root:root.third-pair{--board-own:var(--third-own);--board-other:var(--third-other)}',
     // Paper is white whatever the screen is; the doubled selector outweighs the ones above.
     `@media print{:root:root:root{${rules(kLight)};color-scheme:light}}`,
   ].join('\n');

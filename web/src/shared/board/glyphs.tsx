@@ -1,5 +1,6 @@
 // Drawings of what is on a cell. All are drawn around (0,0), the middle of the cell.
 import type { JSX } from 'preact';
+import { useLayoutEffect } from 'preact/hooks';
 import { textures } from './drawing.json';
 import { kUnit, type Point } from './geometry';
 import { iconOf } from './icons';
@@ -11,8 +12,12 @@ const kHalf = kUnit / 2;
 // Over another terrain only the marks of a texture are drawn.
 export const fillOf = ({ tint, pattern }: Surface, isOver = false): string => `url(#surface-${tint}-${pattern}${isOver ? '-over' : ''})`;
 
-// Textures of terrains, once per page.
+// Textures of terrains, once per page, and a third pair of colours where those of paths are tiles'.
 export function Patterns({ surfaces }: { surfaces: Surface[] }): JSX.Element {
+  const isThird = surfaces.some(({ tint }) => tint === 'blue' || tint === 'orange');
+  useLayoutEffect(() => {
+    document.documentElement.classList.toggle('third-pair', isThird);
+  }, [isThird]);
   const marksOf = (pattern: string): { d: string; isFilled: boolean } => {
     const texture = textures.find(({ name }) => name === pattern);
     const marks = (texture?.at ?? []).map(([x, y]) => `M${x} ${y}${texture?.path}`);
