@@ -213,8 +213,7 @@ int import_log(const SessionOptions& options, Console& console) {
 }
 
 void declare(OptionList& list, SessionOptions& options) {
-  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "import"},
-            "What to do")
+  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "import"}, "What to do")
       .required();
   list.text("folder", options.folder, "DIR", "Folder that kith serve was given; with import: a log of a lesson file")
       .required();

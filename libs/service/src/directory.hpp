@@ -106,11 +106,11 @@ class Directory {
   std::int64_t waiting_list_ = 0;
   Tokens tokens_;
   std::string base_url_, facilitator_token_, observer_token_;
-  std::map<Place, Contact> contacts_;             // of people
-  std::map<Place, Place> moved_;                  // from the waiting list to a group: whose links lead there now
-  std::map<Place, Place> came_from_;              // the reverse
-  std::map<std::string, Place> seat_of_person_;   // by person_of() what a platform says of them
-  std::map<Place, Json> queries_;                 // of people who have not consented yet
+  std::map<Place, Contact> contacts_;            // of people
+  std::map<Place, Place> moved_;                 // from the waiting list to a group: whose links lead there now
+  std::map<Place, Place> came_from_;             // the reverse
+  std::map<std::string, Place> seat_of_person_;  // by person_of() what a platform says of them
+  std::map<Place, Json> queries_;                // of people who have not consented yet
   std::map<LiveService::ConnectionId, ConnectionPtr> connections_;
 };
 

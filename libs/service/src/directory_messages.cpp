@@ -30,9 +30,8 @@ void Directory::closed(LiveService::ConnectionId id) {
   const auto contact = contacts_.find(place);
   if (contact != contacts_.end() && contact->second.connection == connection) contact->second.connection = nullptr;
   const auto room = room_of(place.first);
-  room->post([room, connection, seat = static_cast<std::size_t>(place.second)] {
-    room->pages().close(seat, connection);
-  });
+  room->post(
+      [room, connection, seat = static_cast<std::size_t>(place.second)] { room->pages().close(seat, connection); });
 }
 
 void Directory::say_goodbye() {

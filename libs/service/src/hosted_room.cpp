@@ -68,30 +68,30 @@ void HostedRoom::begin() {
 
 void HostedRoom::rebuild(std::vector<StoredEvent> events) {
   service_.teachers.post(TeachingPool::Urgency::kNow,
-              [self = shared_from_this(), events = std::move(events)](TeachingCache& cache) {
-                Rebuilt result;
-                std::int64_t last = 0;
+                         [self = shared_from_this(), events = std::move(events)](TeachingCache& cache) {
+                           Rebuilt result;
+                           std::int64_t last = 0;
 
-                // A room that does not replay is kept as it is stored, and says why it stands still.
-                try {
-                  Room rebuilt{self->service_.study, self->setup_, cache};
-                  for (const auto& event : events) {
-                    rebuilt.apply(room_event_of(event), cache);
-                    result.taught.see(rebuilt);
-                    if (event.message) result.messages.push_back(mark_of(event.actor, *event.message));
-                    last = event.at_us;
-                  }
-                  release(rebuilt, result.taught, result.observed);
-                  result.room = std::move(rebuilt);
-                } catch (const std::exception& error) {
-                  result.problem = error.what();
-                }
+                           // A room that does not replay is kept as it is stored, and says why it stands still.
+                           try {
+                             Room rebuilt{self->service_.study, self->setup_, cache};
+                             for (const auto& event : events) {
+                               rebuilt.apply(room_event_of(event), cache);
+                               result.taught.see(rebuilt);
+                               if (event.message) result.messages.push_back(mark_of(event.actor, *event.message));
+                               last = event.at_us;
+                             }
+                             release(rebuilt, result.taught, result.observed);
+                             result.room = std::move(rebuilt);
+                           } catch (const std::exception& error) {
+                             result.problem = error.what();
+                           }
 
-                self->post([self, result = std::move(result), last]() mutable {
-                  self->last_us_ = last;
-                  self->finish_rebuild(std::move(result));
-                });
-              });
+                           self->post([self, result = std::move(result), last]() mutable {
+                             self->last_us_ = last;
+                             self->finish_rebuild(std::move(result));
+                           });
+                         });
 }
 
 void HostedRoom::finish_rebuild(Rebuilt rebuilt) {
@@ -203,9 +203,8 @@ void HostedRoom::hand_in() {
   batch.tokens = with.tokens;
   batch.revoked = with.revoked;
   batch.events.insert(batch.events.end(), with.events.begin(), with.events.end());
-  service_.save(std::move(batch), [self = shared_from_this()](bool saved) {
-    self->post([self, saved] { self->on_saved(saved); });
-  });
+  service_.save(std::move(batch),
+                [self = shared_from_this()](bool saved) { self->post([self, saved] { self->on_saved(saved); }); });
 }
 
 void HostedRoom::on_saved(bool saved) {

@@ -90,7 +90,7 @@ void ServiceState::load() {
   std::map<std::int64_t, std::shared_ptr<HostedRoom>> hosted;
   for (auto& stored : file.rooms()) {
     auto setup = room_setup(Json::parse(stored.setup));
-    maker.numbers().count(setup);
+    maker.numbers().count(stored.number, setup);
     const auto room = std::make_shared<HostedRoom>(*this, std::move(stored), std::move(setup));
     hosted.emplace(room->number(), room);
     directory.add(room);
@@ -132,7 +132,8 @@ void ServiceState::on_applied(HostedRoom& room, std::span<const RoomEvent> event
     const auto body = body_of(event);
     if (const auto* joined = event.get<happening::Joined>()) room.pages().take(joined->seat);
     if (is_logged(event.actor, type)) views.write(log_entry(room.number(), event.at_us, event.actor, type, body));
-    post([this, number = room.number(), actor = event.actor, type, body] { directory.note(number, actor, type, body); });
+    post(
+        [this, number = room.number(), actor = event.actor, type, body] { directory.note(number, actor, type, body); });
   }
   views.changed(room.shared_from_this());
   room.pages().show(room);

@@ -80,11 +80,7 @@ class Handlers {
 class Groups {
  public:
   Groups(asio::io_context& io, const tcp::endpoint& server, const RehearsalOptions& options)
-      : io_{io},
-        server_{server},
-        options_{options},
-        world_{.options = options, .server = server},
-        seed_{options.seed} {
+      : io_{io}, server_{server}, options_{options}, world_{.options = options, .server = server}, seed_{options.seed} {
     facilitator_.emplace(io_, server_, options_.facilitator);
     add(options_.groups);
   }

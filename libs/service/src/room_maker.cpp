@@ -71,9 +71,9 @@ std::int64_t room_number(const std::string& id) {
   return error == std::errc{} && rest == end && number > 0 ? number : 0;
 }
 
-void RoomNumbers::count(const RoomSetup& setup) {
+void RoomNumbers::count(std::int64_t number, const RoomSetup& setup) {
   const std::lock_guard lock{mutex_};
-  next_ = std::max(next_, room_number(setup.id) + 1);
+  next_ = std::max(next_, number + 1);
   ++made_[cell_key(setup.strategy, setup.composition)];
 }
 

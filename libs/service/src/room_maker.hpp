@@ -34,7 +34,7 @@ struct RoomWish {
 class RoomNumbers {
  public:
   // There is this room already.
-  void count(const RoomSetup& setup);
+  void count(std::int64_t number, const RoomSetup& setup);
   // A room as wished, of the cell that has the fewest.
   [[nodiscard]] RoomSetup setup_for(const LiveStudy& study, const RoomWish& wish);
   // A room of this cell, with code and salt.

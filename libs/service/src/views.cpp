@@ -166,27 +166,30 @@ void Views::audit_next() {
   const auto hosted = next->second;
   to_audit_.erase(next);
   is_auditing_ = true;
-  hosted->post([this, hosted] {
-    if (hosted->room() == nullptr) return post([this] { is_auditing_ = false; });
-    judge(hosted, hosted->num_observed(), hosted->observed());
+  // Where many lessons wait this may be forgotten; then the next picture asks again.
+  const auto give_up = [this, number = ++num_audits_](void*) {
+    post([this, number] { is_auditing_ = is_auditing_ && number != num_audits_; });
+  };
+  const std::shared_ptr<void> turn{nullptr, give_up};
+  hosted->post([this, hosted, turn] {
+    if (hosted->room() != nullptr) judge(hosted, turn);
   });
 }
 
-void Views::judge(const std::shared_ptr<HostedRoom>& hosted, std::size_t periods, std::vector<TaughtPerson> people) {
-  // Where many wait the job may be forgotten; then the next picture asks again.
-  const std::shared_ptr<void> turn{nullptr, [this](void*) { post([this] { is_auditing_ = false; }); }};
-  service_.teachers.post(
-      TeachingPool::Urgency::kAhead,
-      [this, hosted, turn, audit = Audit{.periods = periods, .people = nullptr}, people](TeachingCache& cache) mutable {
-        std::string problem;
-        try {
-          const auto judged = audit_room(cache, *service_.study, hosted->setup(), std::move(people));
-          audit.people = std::make_shared<const Json>(people_json(*service_.study->atlas, judged));
-        } catch (const std::exception& error) {
-          problem = error.what();
-        }
-        post([this, hosted, audit, problem] { keep_audit(*hosted, audit, problem); });
-      });
+// On the strand of the room.
+void Views::judge(const std::shared_ptr<HostedRoom>& hosted, const std::shared_ptr<void>& turn) {
+  service_.teachers.post(TeachingPool::Urgency::kAhead,
+                         [this, hosted, turn, audit = Audit{.periods = hosted->num_observed(), .people = {}},
+                          people = hosted->observed()](TeachingCache& cache) mutable {
+                           std::string problem;
+                           try {
+                             const auto judged = audit_room(cache, *service_.study, hosted->setup(), std::move(people));
+                             audit.people = std::make_shared<const Json>(people_json(*service_.study->atlas, judged));
+                           } catch (const std::exception& error) {
+                             problem = error.what();
+                           }
+                           post([this, hosted, audit, problem] { keep_audit(*hosted, audit, problem); });
+                         });
 }
 
 void Views::keep_audit(const HostedRoom& hosted, Audit audit, const std::string& problem) {

@@ -21,7 +21,6 @@ namespace kith {
 
 class HostedRoom;
 struct ServiceState;
-struct TaughtPerson;
 
 // A room in the list of all: its rows, who of it understands what, and for each seat what is not known to the room.
 struct WatchedRoom {
@@ -85,7 +84,7 @@ class Views {
   void take_picture(const std::shared_ptr<HostedRoom>& hosted);
   void keep_picture(const std::shared_ptr<HostedRoom>& hosted, Picture picture, std::size_t num_observed);
   void audit_next();
-  void judge(const std::shared_ptr<HostedRoom>& hosted, std::size_t periods, std::vector<TaughtPerson> people);
+  void judge(const std::shared_ptr<HostedRoom>& hosted, const std::shared_ptr<void>& turn);
   void keep_audit(const HostedRoom& hosted, Audit audit, const std::string& problem);
   void note_unseen(const HostedRoom& room, const std::string& what, const std::string& problem);
   void show_all();
@@ -104,6 +103,7 @@ class Views {
   std::map<std::int64_t, Audit> audits_;
   std::map<std::int64_t, std::shared_ptr<HostedRoom>> to_audit_;
   bool is_auditing_ = false;  // one room at a time: nobody's lesson waits for long
+  std::size_t num_audits_ = 0;
   std::deque<LogEntry> log_;
   std::map<std::int64_t, std::string> troubles_;                        // by room
   std::map<std::pair<std::int64_t, std::string>, std::string> unseen_;  // by room, and what of it cannot be shown

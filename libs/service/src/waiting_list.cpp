@@ -42,8 +42,7 @@ void WaitingList::make() {
   auto setup = service_.maker.numbers().setup_for("waiting list", "", {});
   setup.is_waiting_list = true;
   setup.replicate = 1;
-  StoredRoom stored{
-      .number = room_number(setup.id), .setup = to_json(setup).dump(), .created_us = service_.now_us()};
+  StoredRoom stored{.number = room_number(setup.id), .setup = to_json(setup).dump(), .created_us = service_.now_us()};
   service_.store.file().write(std::vector{StoreBatch{.rooms = {stored}}});
   const auto room = std::make_shared<HostedRoom>(service_, std::move(stored), std::move(setup));
   directory.add(room);

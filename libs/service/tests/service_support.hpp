@@ -329,9 +329,8 @@ class Stage {
   LiveService::HttpReply ask(LiveService::HttpRequest request) {
     auto reply = std::make_shared<std::promise<LiveService::HttpReply>>();
     auto answer = reply->get_future();
-    service_->http(std::move(request), [reply = std::move(reply)](LiveService::HttpReply given) {
-      reply->set_value(std::move(given));
-    });
+    service_->http(std::move(request),
+                   [reply = std::move(reply)](LiveService::HttpReply given) { reply->set_value(std::move(given)); });
     return answer.get();
   }
   /// Takes a seat under that code. @return the token, or "" if there is none.

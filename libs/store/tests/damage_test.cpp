@@ -41,8 +41,7 @@ void make_session(const fs::path& folder) {
       checkpoint.empty_log();
     }
   }
-  for (const auto& name : {"session.sqlite", "session.sqlite-wal"})
-    fs::copy_file(scratch.path() / name, folder / name);
+  for (const auto& name : {"session.sqlite", "session.sqlite-wal"}) fs::copy_file(scratch.path() / name, folder / name);
 }
 
 std::vector<StoredEvent> all_events() {
@@ -113,7 +112,7 @@ TEST(DamagedSession, IsNoticedIfAFileIsCutShort) {
     fs::resize_file(folder / kEventFile, random() % size);
     const auto story = "cut to " + std::to_string(fs::file_size(folder / kEventFile));
     const auto read = read_or_refuse(folder, story);
-    if (read) EXPECT_EQ(*read, events) << story;
+    EXPECT_EQ(read.value_or(events), events) << story;
   }
 }
 
