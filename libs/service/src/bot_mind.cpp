@@ -1,6 +1,8 @@
 #include "bot_mind.hpp"
 
-#include "json_int.hpp"
+#include <cstdint>
+#include <utility>
+
 #include "kith/live/room_phase.hpp"
 
 namespace kith {
@@ -23,10 +25,14 @@ Json answers_to(const Json& items) {
   return answers;
 }
 
-// A member that is a whole number, or what to take without one.
+// A member that is a whole number, or what to take without one: get<int>() converts any number, which is undefined for
+// large ones.
 int int_at(const Json& object, const char* name, int otherwise) {
   const auto found = object.find(name);
-  return found == object.end() ? otherwise : int_of(*found).value_or(otherwise);
+  if (found == object.end() || !found->is_number_integer()) return otherwise;
+  const bool fits = found->is_number_unsigned() ? std::in_range<int>(found->get<std::uint64_t>())
+                                                : std::in_range<int>(found->get<std::int64_t>());
+  return fits ? found->get<int>() : otherwise;
 }
 
 std::string number(const Json& object, const char* name) {

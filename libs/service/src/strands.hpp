@@ -6,13 +6,9 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <memory>
-#include <mutex>
 #include <utility>
-#include <vector>
 
 #include "busy_count.hpp"
-#include "kith/teaching/cache.hpp"
 #include "net.hpp"
 
 namespace kith {
@@ -72,36 +68,6 @@ class Turns {
 
   bool is_taken_ = false;
   std::deque<Strands::Job> waiting_;
-};
-
-// Caches for jobs that need one for a moment: as many as there are at a time. Thread-safe.
-class TeachingCaches {
- public:
-  TeachingCaches(std::shared_ptr<const Atlas> atlas, std::size_t bytes)
-      : atlas_{std::move(atlas)}, bytes_{bytes}, store_{std::make_shared<PartitionStore>(*atlas_)} {}
-
-  template <typename Use>
-  void lend(const Use& use) {
-    auto cache = take();
-    use(*cache);
-    const std::lock_guard lock{mutex_};
-    idle_.push_back(std::move(cache));
-  }
-
- private:
-  [[nodiscard]] std::unique_ptr<TeachingCache> take() {
-    const std::lock_guard lock{mutex_};
-    if (idle_.empty()) return std::make_unique<TeachingCache>(atlas_, bytes_, store_);
-    auto cache = std::move(idle_.back());
-    idle_.pop_back();
-    return cache;
-  }
-
-  std::shared_ptr<const Atlas> atlas_;
-  std::size_t bytes_;
-  std::shared_ptr<PartitionStore> store_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<TeachingCache>> idle_;
 };
 
 }  // namespace kith

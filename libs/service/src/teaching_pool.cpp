@@ -9,31 +9,24 @@ constexpr std::size_t kMostWaiting = 64;  // each keeps a copy of a session
 
 }  // namespace
 
-TeachingPool::TeachingPool(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes,
-                           BusyCount& busy)
-    : busy_{busy} {
-  const auto store = std::make_shared<PartitionStore>(*atlas);
-  for (std::size_t i = 0; i < threads; ++i)
-    threads_.emplace_back([this, atlas, cache_bytes, store] { run(atlas, cache_bytes, store); });
-}
-
 void TeachingPool::stop() {
   {
     const std::lock_guard lock{mutex_};
-    stopping_ = true;
+    is_stopping_ = true;
+    for (auto* queue : {&now_, &ahead_}) {
+      for (const auto& job : std::exchange(*queue, {})) {
+        static_cast<void>(job);
+        busy_.end();
+      }
+    }
   }
-  changed_.notify_all();
-  for (auto& thread : threads_) thread.join();
-  threads_.clear();
-  for (std::size_t i = now_.size() + ahead_.size(); i > 0; --i) busy_.end();
-  now_.clear();
-  ahead_.clear();
+  pool_.join();
 }
 
 void TeachingPool::post(Urgency urgency, Job job) {
   {
     const std::lock_guard lock{mutex_};
-    if (stopping_) return;
+    if (is_stopping_) return;
     auto& queue = urgency == Urgency::kNow ? now_ : ahead_;
     busy_.begin();
     queue.push_back(std::move(job));
@@ -42,26 +35,21 @@ void TeachingPool::post(Urgency urgency, Job job) {
       busy_.end();
     }
   }
-  changed_.notify_one();
+  asio::post(pool_, [this] { do_next(); });
 }
 
-void TeachingPool::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes,
-                       std::shared_ptr<PartitionStore> store) {
-  TeachingCache cache{std::move(atlas), cache_bytes, std::move(store)};
-  while (true) {
-    Job job;
-    {
-      std::unique_lock lock{mutex_};
-      changed_.wait(lock, [&] { return stopping_ || !now_.empty() || !ahead_.empty(); });
-      if (stopping_) return;
-      auto& queue = now_.empty() ? ahead_ : now_;
-      job = std::move(queue.front());
-      queue.pop_front();
-    }
-    job(cache);
-    job = nullptr;
-    busy_.end();
+void TeachingPool::do_next() {
+  Job job;
+  {
+    const std::lock_guard lock{mutex_};
+    auto& queue = now_.empty() ? ahead_ : now_;
+    if (queue.empty()) return;
+    job = std::move(queue.front());
+    queue.pop_front();
   }
+  caches_.lend(job);
+  job = nullptr;
+  busy_.end();
 }
 
 }  // namespace kith

@@ -1,18 +1,49 @@
 #pragma once
 
-#include <condition_variable>
+#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "busy_count.hpp"
 #include "kith/teaching/cache.hpp"
+#include "net.hpp"
 
 namespace kith {
+
+// Caches for jobs that need one for a moment: as many as there are at a time. Thread-safe.
+class TeachingCaches {
+ public:
+  TeachingCaches(std::shared_ptr<const Atlas> atlas, std::size_t bytes)
+      : atlas_{std::move(atlas)}, bytes_{bytes}, store_{std::make_shared<PartitionStore>(*atlas_)} {}
+
+  template <typename Use>
+  void lend(const Use& use) {
+    auto cache = take();
+    use(*cache);
+    const std::lock_guard lock{mutex_};
+    idle_.push_back(std::move(cache));
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<TeachingCache> take() {
+    const std::lock_guard lock{mutex_};
+    if (idle_.empty()) return std::make_unique<TeachingCache>(atlas_, bytes_, store_);
+    auto cache = std::move(idle_.back());
+    idle_.pop_back();
+    return cache;
+  }
+
+  std::shared_ptr<const Atlas> atlas_;
+  std::size_t bytes_;
+  std::shared_ptr<PartitionStore> store_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TeachingCache>> idle_;
+};
 
 // Threads that choose lessons. What a room waits for comes first, what it will probably need comes when nothing else is
 // to be done.
@@ -21,8 +52,9 @@ class TeachingPool {
   using Job = std::function<void(TeachingCache& cache)>;
   enum class Urgency { kNow, kAhead };
 
-  TeachingPool(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes,
-               BusyCount& busy);
+  // @param cache_bytes  what each of the threads remembers, see TeachingCache.
+  TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy)
+      : busy_{busy}, caches_{std::move(atlas), cache_bytes}, pool_{threads} {}
   ~TeachingPool() { stop(); }
   TeachingPool(const TeachingPool&) = delete;
   TeachingPool& operator=(const TeachingPool&) = delete;
@@ -33,15 +65,15 @@ class TeachingPool {
   void post(Urgency urgency, Job job);
 
  private:
-  void run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, std::shared_ptr<PartitionStore> store);
+  void do_next();
 
   BusyCount& busy_;
+  TeachingCaches caches_;
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::deque<Job> now_;
   std::deque<Job> ahead_;
-  bool stopping_ = false;
-  std::vector<std::thread> threads_;
+  bool is_stopping_ = false;
+  asio::thread_pool pool_;
 };
 
 }  // namespace kith

@@ -163,30 +163,22 @@ void WebSocketConnection::on_control(websocket::frame_type kind, boost::beast::s
 }
 
 void WebSocketConnection::send(std::shared_ptr<const std::string> frame) {
-  bool is_overflown = false;
-  {
-    const std::lock_guard lock{queue_mutex_};
-    if (queue_.is_overflown()) return;
-    is_overflown = !queue_.push(std::move(frame));
-    if (!is_overflown) {
-      if (is_flushing_) return;
-      is_flushing_ = true;
-    }
-  }
-  if (is_overflown) {
+  asio::post(strand_,
+             [self = shared_from_this(), frame = std::move(frame)]() mutable { self->push(std::move(frame)); });
+}
+
+void WebSocketConnection::push(std::shared_ptr<const std::string> frame) {
+  if (is_finished_ || is_closing_sent_ || queue_.is_overflown()) return;
+  if (!queue_.push(std::move(frame))) {
     ++context_.slow_clients;
-    return close(Code::try_again_later, "messages are not read fast enough");
+    return begin_close(Code::try_again_later, "messages are not read fast enough");
   }
-  asio::post(strand_, [self = shared_from_this()] { self->write_next(); });
+  if (out_ == nullptr) write_next();
 }
 
 void WebSocketConnection::write_next() {
   if (is_finished_) return;
-  {
-    const std::lock_guard lock{queue_mutex_};
-    out_ = queue_.pop();
-    if (out_ == nullptr) is_flushing_ = false;
-  }
+  out_ = queue_.pop();
   if (out_ == nullptr) {
     if (closing_) close_now();
     return;
@@ -211,21 +203,12 @@ void WebSocketConnection::begin_close(std::uint16_t code, const std::string& rea
   if (is_finished_ || closing_) return;
   closing_ = websocket::close_reason{static_cast<Code>(code), shortened(reason)};
   arm(context_.options.limits.close_time);
-  {
-    const std::lock_guard lock{queue_mutex_};
-    if (is_flushing_) return;
-    is_flushing_ = true;  // nothing is written any more
-  }
-  close_now();
+  if (out_ == nullptr) close_now();
 }
 
 void WebSocketConnection::close_now() {
   if (is_closing_sent_ || is_finished_) return;
   is_closing_sent_ = true;
-  {
-    const std::lock_guard lock{queue_mutex_};
-    is_flushing_ = true;
-  }
   stream_->async_close(*closing_, [self = shared_from_this()](NetError) { self->finish(); });
 }
 
@@ -245,7 +228,7 @@ void WebSocketConnection::stop() {
   asio::post(strand_, [self = shared_from_this()] {
     if (!self->is_open_) return self->finish();
     static const auto kBye = std::make_shared<const std::string>(R"({"t":"bye","reason":"server-stops"})");
-    self->send(kBye);
+    self->push(kBye);
     self->begin_close(Code::going_away, "the server stops");
   });
 }

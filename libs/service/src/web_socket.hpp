@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -46,6 +45,7 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
   void read();
   void on_read(NetError error);
   void deliver();
+  void push(std::shared_ptr<const std::string> frame);
   void write_next();
   void on_written(NetError error);
   void begin_close(std::uint16_t code, const std::string& reason);
@@ -77,10 +77,7 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
   std::chrono::steady_clock::time_point pinged_at_{};  // when the last one was begun
   std::optional<boost::beast::websocket::close_reason> closing_;
   std::shared_ptr<const std::string> out_;  // being written
-
-  std::mutex queue_mutex_;
   SendQueue queue_;
-  bool is_flushing_ = false;  // a write is under way, or will be started
 };
 
 }  // namespace kith
