@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/asio/executor_work_guard.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,34 +55,21 @@ RehearsalResult result_of(const std::vector<std::shared_ptr<Bot>>& bots) {
   return result;
 }
 
-// Threads that run handlers, until it is destroyed.
-class Handlers {
- public:
-  Handlers(asio::io_context& io, std::size_t threads)
-      : io_{io}, work_{io.get_executor()}, threads_{start_threads(threads, [&io] { io.run(); })} {
-    if (threads_.empty()) throw Error{ErrorKind::kIo, "the system grants no thread for a rehearsal"};
-  }
-  ~Handlers() {
-    io_.stop();
-    threads_.clear();
-  }
-  Handlers(const Handlers&) = delete;
-  Handlers& operator=(const Handlers&) = delete;
-
- private:
-  asio::io_context& io_;
-  asio::executor_work_guard<asio::io_context::executor_type> work_;
-  std::vector<std::jthread> threads_;
-};
-
 // The groups of a rehearsal and the people in them.
 class Groups {
  public:
-  Groups(asio::io_context& io, const tcp::endpoint& server, const RehearsalOptions& options)
-      : io_{io}, server_{server}, options_{options}, world_{.options = options, .server = server}, seed_{options.seed} {
-    facilitator_.emplace(io_, server_, options_.facilitator);
+  Groups(Threads& threads, const tcp::endpoint& server, const RehearsalOptions& options)
+      : threads_{threads},
+        server_{server},
+        options_{options},
+        world_{.options = options, .server = server},
+        seed_{options.seed} {
+    facilitator_.emplace(threads_.io(), server_, options_.facilitator);
     add(options_.groups);
   }
+  ~Groups() { threads_.stop(); }
+  Groups(const Groups&) = delete;
+  Groups& operator=(const Groups&) = delete;
 
   [[nodiscard]] std::size_t num_unfinished() const { return world_.unfinished; }
   [[nodiscard]] std::size_t size() const { return groups_.size(); }
@@ -95,7 +81,7 @@ class Groups {
         std::count_if(groups_.begin(), groups_.end(), [](const Group& group) { return group.shared->unfinished > 0; }));
     if (unfinished >= options_.groups) return;
     try {
-      if (!facilitator_) facilitator_.emplace(io_, server_, options_.facilitator);
+      if (!facilitator_) facilitator_.emplace(threads_.io(), server_, options_.facilitator);
       add(options_.groups - unfinished);
     } catch (const Error&) {
       facilitator_.reset();  // the server was restarted: once more, over a new connection
@@ -108,7 +94,7 @@ class Groups {
     for (std::size_t i = 0; i < watchers_.size(); ++i) {
       auto& watcher = watchers_[i];
       if (!watcher || watcher->is_closed()) {
-        watcher.emplace(io_, server_, i == 0 ? options_.facilitator : options_.observer);
+        watcher.emplace(threads_.io(), server_, i == 0 ? options_.facilitator : options_.observer);
       }
       watcher->look_at(room);
       for (auto& problem : watcher->problems()) problems_.insert(std::move(problem));
@@ -121,7 +107,7 @@ class Groups {
       if (group.shared->unfinished > 0) rooms.push_back(group.room);
     }
     // Another connection: the first may not have survived, for instance because the server was restarted.
-    BotFacilitator{io_, server_, options_.facilitator}.end_rooms(rooms);
+    BotFacilitator{threads_.io(), server_, options_.facilitator}.end_rooms(rooms);
   }
   void stop() {
     for (const auto& person : people_) person->stop();
@@ -141,14 +127,14 @@ class Groups {
       shared->unfinished = room.tokens.size();
       world_.unfinished += room.tokens.size();
       for (const auto& token : room.tokens) {
-        people_.push_back(std::make_shared<Bot>(io_, world_, shared, token, ++seed_));
+        people_.push_back(std::make_shared<Bot>(threads_.io(), world_, shared, token, ++seed_));
         people_.back()->start();
       }
       groups_.push_back({std::move(room), shared});
     }
   }
 
-  asio::io_context& io_;
+  Threads& threads_;
   tcp::endpoint server_;
   const RehearsalOptions& options_;
   BotWorld world_;
@@ -176,43 +162,40 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
   const tcp::endpoint server{address, options.port};
   const bool is_timed = options.duration.count() > 0;
 
-  asio::io_context io;
-  std::optional<Groups> groups;
-  double seconds = 0.0;
-  {
-    Handlers handlers{io, std::max<std::size_t>(options.threads, 1)};
-    groups.emplace(io, server, options);
-    const auto start = Clock::now();
-    const auto wait = [&](auto&& goes_on) {
-      while (goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {
-        std::this_thread::sleep_for(kPollTime);
-      }
-    };
-    bool is_stopped = false;
-    wait([&](milliseconds elapsed) {
-      is_stopped = options.on_tick && !options.on_tick(elapsed);
-      if (is_stopped) return false;
-      groups->look();
-      if (!is_timed) return groups->num_unfinished() > 0;
-      if (elapsed >= options.duration) return false;
-      groups->replace_finished();
-      return true;
-    });
-    seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    const auto wait_for_all = [&](milliseconds patience) {
-      const auto from = Clock::now();
-      wait([&](milliseconds) { return groups->num_unfinished() > 0 && Clock::now() - from < patience; });
-    };
-    if (!is_stopped && groups->num_unfinished() > 0) {
-      groups->end();
-      wait_for_all(kTimeToEnd);
+  Threads threads{std::max<std::size_t>(options.threads, 1)};
+  Groups groups{threads, server, options};
+  const auto start = Clock::now();
+  const auto wait = [&](auto&& goes_on) {
+    while (goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {
+      std::this_thread::sleep_for(kPollTime);
     }
-    groups->stop();
-    wait_for_all(kTimeToStop);
+  };
+  bool is_stopped = false;
+  wait([&](milliseconds elapsed) {
+    is_stopped = options.on_tick && !options.on_tick(elapsed);
+    if (is_stopped) return false;
+    groups.look();
+    if (!is_timed) return groups.num_unfinished() > 0;
+    if (elapsed >= options.duration) return false;
+    groups.replace_finished();
+    return true;
+  });
+  const auto seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const auto wait_for_all = [&](milliseconds patience) {
+    const auto from = Clock::now();
+    wait([&](milliseconds) { return groups.num_unfinished() > 0 && Clock::now() - from < patience; });
+  };
+  if (!is_stopped && groups.num_unfinished() > 0) {
+    groups.end();
+    wait_for_all(kTimeToEnd);
   }
-  auto result = result_of(groups->people());
-  result.groups = groups->size();
-  result.problems = groups->problems();
+  groups.stop();
+  wait_for_all(kTimeToStop);
+  threads.stop();
+
+  auto result = result_of(groups.people());
+  result.groups = groups.size();
+  result.problems = groups.problems();
   result.seconds = seconds;
   return result;
 }

@@ -2,7 +2,6 @@
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <deque>
 #include <functional>
@@ -10,10 +9,11 @@
 
 #include "busy_count.hpp"
 #include "net.hpp"
+#include "threads.hpp"
 
 namespace kith {
 
-using Strand = asio::strand<asio::thread_pool::executor_type>;
+using Strand = asio::strand<asio::io_context::executor_type>;
 
 // Threads that do jobs: those of one strand one at a time and in the order in which they came, those of different
 // strands at the same time. Whatever a part of the service owns is touched by jobs of its strand only.
@@ -21,9 +21,9 @@ class Strands {
  public:
   using Job = std::function<void()>;
 
-  Strands(std::size_t threads, BusyCount& busy) : busy_{busy}, pool_{threads} {}
+  Strands(std::size_t threads, BusyCount& busy) : busy_{busy}, threads_{threads} {}
 
-  [[nodiscard]] Strand make() { return asio::make_strand(pool_); }
+  [[nodiscard]] Strand make() { return asio::make_strand(threads_.io()); }
   // From any thread, jobs included. Jobs must not throw.
   void post(const Strand& strand, Job job) {
     busy_.begin();
@@ -34,14 +34,11 @@ class Strands {
     });
   }
   // Drops what has not begun.
-  void stop() {
-    pool_.stop();
-    pool_.join();
-  }
+  void stop() { threads_.stop(); }
 
  private:
   BusyCount& busy_;
-  asio::thread_pool pool_;
+  Threads threads_;
 };
 
 // Lets jobs of one strand that wait for others take turns: the next one begins when the one before has said that it has

@@ -20,7 +20,7 @@ void TeachingPool::stop() {
       }
     }
   }
-  pool_.join();
+  threads_.stop();
 }
 
 void TeachingPool::post(Urgency urgency, Job job) {
@@ -35,7 +35,7 @@ void TeachingPool::post(Urgency urgency, Job job) {
       busy_.end();
     }
   }
-  asio::post(pool_, [this] { do_next(); });
+  asio::post(threads_.io(), [this] { do_next(); });
 }
 
 void TeachingPool::do_next() {

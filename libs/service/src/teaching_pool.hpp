@@ -1,6 +1,5 @@
 #pragma once
 
-#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <deque>
 #include <functional>
@@ -11,7 +10,7 @@
 
 #include "busy_count.hpp"
 #include "kith/teaching/cache.hpp"
-#include "net.hpp"
+#include "threads.hpp"
 
 namespace kith {
 
@@ -54,7 +53,7 @@ class TeachingPool {
 
   // @param cache_bytes  what each of the threads remembers, see TeachingCache.
   TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy)
-      : busy_{busy}, caches_{std::move(atlas), cache_bytes}, pool_{threads} {}
+      : busy_{busy}, caches_{std::move(atlas), cache_bytes}, threads_{threads} {}
   ~TeachingPool() { stop(); }
   TeachingPool(const TeachingPool&) = delete;
   TeachingPool& operator=(const TeachingPool&) = delete;
@@ -73,7 +72,7 @@ class TeachingPool {
   std::deque<Job> now_;
   std::deque<Job> ahead_;
   bool is_stopping_ = false;
-  asio::thread_pool pool_;
+  Threads threads_;
 };
 
 }  // namespace kith

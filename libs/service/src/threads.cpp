@@ -1,17 +1,36 @@
 #include "threads.hpp"
 
 #include <system_error>
+#include <utility>
+
+#include "kith/core/error.hpp"
 
 namespace kith {
 
-std::vector<std::jthread> start_threads(std::size_t wanted, const std::function<void()>& body) {
-  std::vector<std::jthread> threads;
-  threads.reserve(wanted);
+Threads::Threads(std::size_t wanted, std::function<void(const std::exception&)> on_error)
+    : on_error_{std::move(on_error)}, work_{io_.get_executor()} {
   try {
-    while (threads.size() < wanted) threads.emplace_back(body);
-  } catch (const std::system_error&) {  // a limit on processes or memory: those that there are do the work
+    while (threads_.size() < wanted) threads_.emplace_back([this] { run(); });
+  } catch (const std::system_error&) {  // a limit on processes or memory
+    if (threads_.empty())
+      throw Error{ErrorKind::kIo, "the system grants no thread", Advice{"raise the limit on processes (ulimit -u)"}};
   }
-  return threads;
+}
+
+void Threads::run() {
+  while (!io_.stopped()) {
+    try {
+      io_.run();
+    } catch (const std::exception& error) {
+      if (!on_error_) throw;
+      on_error_(error);
+    }
+  }
+}
+
+void Threads::stop() {
+  io_.stop();
+  threads_.clear();
 }
 
 }  // namespace kith
