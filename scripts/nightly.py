@@ -3,7 +3,6 @@
 
 usage: nightly.py RESULTS COMMIT [PAGE]   RESULTS has a line per part: name, budget, minutes, minutes of building and
                                           outcome, with tabs between them; its output is beside it, in NAME.log
-       nightly.py --nights PART [PAGE]    how often the part ran
 """
 import pathlib
 import re
@@ -11,7 +10,6 @@ import sys
 
 PAGE = pathlib.Path(__file__).parents[1] / "docs" / "nightly.md"
 GOAL_OF_FUZZING = 1_000_000
-KILLS = ("kill", "timer", "failpoint")
 
 
 def rows_under(text, heading):
@@ -29,22 +27,10 @@ def spaced(value):
     return f"{value:,}".replace(",", " ")
 
 
-def faults(log):
-    """Cases that a fault struck, by family: columns of tests/faults/summary.cpp."""
-    struck = {}
-    for family, count in re.findall(r"^(\w+) +\S+ +\d+ +(\d+)(?: +\d+){5}$", log, re.M):
-        if family != "all":
-            struck[family] = struck.get(family, 0) + int(count)
-    return struck
-
-
 def counts(part, log):
     """What a log adds to the totals."""
     if part == "fuzz":
         return {f"executions of {name}": int(n) for name, n in re.findall(r"^(\w+) +(\d+) executions ", log, re.M)}
-    if part == "slow":
-        struck = faults(log)
-        return {"kills": sum(struck.get(family, 0) for family in KILLS), "I/O errors": struck.get("io", 0)}
     return {}
 
 
@@ -89,9 +75,6 @@ def main():
         sys.exit(__doc__)
     page = pathlib.Path(arguments[2]) if len(arguments) == 3 else PAGE
     text = page.read_text()
-    if arguments[0] == "--nights":
-        print(rows_under(text, "Parts")[arguments[1]][-1])
-        return
     results = pathlib.Path(arguments[0])
     rows = [line.split("\t") for line in results.read_text().splitlines()]
     logs = {row[0]: (results.parent / f"{row[0]}.log").read_text(errors="replace") for row in rows}

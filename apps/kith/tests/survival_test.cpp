@@ -1,11 +1,8 @@
-// What becomes of a study whatever ends it, and of its folder.
+// What becomes of a study that is stopped, and of its folder; libs/runs/tests/every_write_test.cpp has the rest.
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 
-#include <algorithm>
 #include <csignal>
-#include <random>
 
 #include "small_study.hpp"
 
@@ -17,61 +14,6 @@ using ::testing::IsEmpty;
 namespace fs = std::filesystem;
 
 constexpr int kTeams = 16;
-
-// Runs it until the failpoint kills it, if it comes to that.
-bool is_killed(const std::vector<std::string>& arguments, const std::string& failpoint) {
-  const int code = run_kith(arguments, fails_at(failpoint)).code;
-  EXPECT_TRUE(code == 128 + SIGKILL || code == 0) << code << " at " << failpoint;
-  return code != 0;
-}
-
-// The instants of a run, most of them in the middle of something: between two teams, just before, in and just after
-// saving one (the delay goes on into the transaction), and while the tables are put in place.
-std::string random_instant(std::mt19937& random) {
-  const auto team = std::to_string(1 + random() % kTeams);
-  switch (random() % 6) {
-    case 0:
-      return "team:" + team;
-    case 1:
-      return "commit:" + team;
-    case 2:
-      return "committed:" + team;
-    case 3:
-      return std::vector<std::string>{"staged:1", "generation:1",    "inputs:1",   "log.txt:1",
-                                      "tables:1", "manifest.json:1", "published:1"}[random() % 7];
-    default:
-      return "commit:" + team + ":" + std::to_string(random() % 3000);
-  }
-}
-
-void kill_and_resume(std::size_t times, unsigned seed, std::size_t most_kills) {
-  std::mt19937 random{seed};
-  std::size_t killed = 0;
-  for (std::size_t i = 0; i < times; ++i) {
-    const Scratch scratch;
-    const auto arguments = small_study(scratch / "run");
-    const auto kills = 1 + random() % most_kills;  // of the resumed runs too
-    std::string story;
-    for (std::size_t k = 0; k < kills; ++k) {
-      const auto instant = random_instant(random);
-      story += instant + " ";
-      killed += is_killed(arguments, instant) ? 1u : 0u;
-      const auto tables = tables_in(scratch / "run");
-      EXPECT_TRUE(tables.empty() || tables == expected()) << story;  // all or nothing
-    }
-    const auto ran = run_kith(arguments);
-    ASSERT_EQ(ran.code, 0) << story << ran.err;
-    ASSERT_EQ(tables_in(scratch / "run"), expected()) << story;
-    ASSERT_EQ(run_kith({"verify", scratch / "run", "--sample", "0.1"}).code, 0) << story;
-  }
-  EXPECT_GT(killed, times / 2);
-}
-
-TEST(Survival, OfKillsAtTenInstants) { kill_and_resume(10, 1, 1); }
-
-TEST(SurvivalSlow, OfKillsAtAHundredInstants) { kill_and_resume(100, 2, 1); }
-
-TEST(SurvivalSlow, OfKillsDuringTheResumeUpToFiveDeep) { kill_and_resume(20, 3, 5); }
 
 // A study that would take minutes is stopped while it runs; a little later it goes on.
 TEST(Survival, OfSignalsSavesWhatIsFinishedAndSaysHowToGoOn) {
@@ -113,50 +55,6 @@ TEST(Survival, OfASignalIsAnErrorDocumentInJson) {
   EXPECT_EQ(document.at("schema"), "kith.error/1");
   EXPECT_EQ(document.at("errors").at(0).at("id"), "interrupted");
   EXPECT_THAT(document.at("errors").at(0).at("hint"), HasSubstr("study quick"));
-}
-
-// Runs it where no file can become larger: what a full disk is like.
-Ran run_limited(const std::vector<std::string>& arguments, rlim_t bytes) {
-  rlimit before = {};
-  getrlimit(RLIMIT_FSIZE, &before);
-  rlimit limited = before;
-  limited.rlim_cur = bytes;
-  struct sigaction ignore = {}, old = {};
-  ignore.sa_handler = SIG_IGN;
-  sigaction(SIGXFSZ, &ignore, &old);
-  setrlimit(RLIMIT_FSIZE, &limited);
-  const Scratch scratch;
-  std::ofstream{scratch / "in"} << "";
-  Ran ran;
-  ran.code = exit_code_of(start_kith(arguments, {}, scratch / "in", scratch / "out", scratch / "err"));
-  setrlimit(RLIMIT_FSIZE, &before);
-  sigaction(SIGXFSZ, &old, nullptr);
-  ran.err = text_of(scratch / "err");
-  return ran;
-}
-
-TEST(Survival, OfAFullDiskKeepsWhatWasThereAndGoesOn) {
-  const Scratch scratch;
-  const auto folder = scratch / "run";
-  ASSERT_EQ(run_kith({"study", "quick", "-o", folder, "--seed", "2", "-q"}).code, 0);
-  const auto before = tables_in(folder);
-  auto arguments = small_study(folder);
-  arguments.emplace_back("--yes");
-  const auto has_no_room = [&](rlim_t bytes) {
-    const auto ran = run_limited(arguments, bytes);
-    EXPECT_EQ(ran.code, 5) << bytes << ran.err;
-    EXPECT_THAT(ran.err, HasSubstr(folder));
-    EXPECT_EQ(tables_in(folder), before);
-  };
-  has_no_room(40'000);  // for the journal
-  EXPECT_TRUE(is_killed(arguments, "staged:1"));
-  EXPECT_EQ(tables_in(folder), before);
-  std::size_t largest = 0;
-  for (const auto& [name, text] : expected()) largest = std::max(largest, text.size());
-  has_no_room(static_cast<rlim_t>(largest - 1));  // for one of the tables, after all teams are saved
-  const auto ran = run_kith(arguments);
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(tables_in(folder), expected());
 }
 
 TEST(Survival, OfAReadOnlyFolderIsAClearMessage) {
