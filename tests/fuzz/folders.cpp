@@ -33,10 +33,8 @@ void replace_line(std::string& text, std::size_t at, std::size_t copies) {
 std::string mutated_file(const std::string& name, const std::string& text, Dice& dice) {
   static const Vocabulary kStudy{"study"};
   static const Vocabulary kTables{"run_table"};
-  if (name.ends_with(".toml")) return mutate_toml(text, kStudy, dice);
-  if (name.ends_with(".csv")) return mutate_csv(text, kTables, dice);
-  if (name.ends_with(".json")) return mutate_json(text, kTables, dice);
-  return mutate_bytes(text, dice);
+  if (name.ends_with(".toml")) return mutate_text(text, kStudy, dice);
+  return name.ends_with(".sqlite") ? mutate_bytes(text, dice) : mutate_text(text, kTables, dice);
 }
 
 // Damage such as a disk does.

@@ -133,8 +133,8 @@ minimize() {  # TARGET
 groups='
 TOML             libs/files/src/
 tables           libs/files/src/csv_re
-domain files     libs/(maps/src/read_|domains/src/(domain_file|read_|condition|exact_vector|reward|wording))
-explicit models  libs/(models/src/|domains/src/(check_model|explicit_family))
+domain files     libs/domains/src/(read_grid|read_map|(domain_file|read_|condition|exact_vector|reward|wording))
+explicit models  libs/domains/src/(.*model|explicit_family)
 policies         libs/domains/src/policy_file
 study files      libs/study/src/(study_file|read_study_spec|read_prior)
 tables of runs   libs/study/src/read_records

@@ -28,15 +28,15 @@ void check(const ResultTable& table) {
 std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"effect"};
   const auto [head, body] = behind_lines(input, 2);
-  if (dice.one_in(4)) return mutate_lines(head, kVocabulary, dice) + std::string{body};
-  return std::string{head} + mutate_csv(body, kVocabulary, dice);
+  if (dice.one_in(4)) return mutate_text(head, kVocabulary, dice) + std::string{body};
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   const auto [head, body] = behind_lines(input, 2);
   const auto [other_head, other_body] = behind_lines(other, 2);
   if (dice.one_in(4)) return std::string{other_head} + std::string{body};
-  return std::string{head} + cross_csv(body, other_body, dice);
+  return std::string{head} + cross_text(body, other_body, dice);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -36,11 +36,11 @@ bool check_filter(std::string_view text) {
 
 std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"effect"};
-  return mutate_lines(input, kVocabulary, dice);
+  return mutate_text(input, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return cross_lines(input, other, dice);
+  return cross_text(input, other, dice);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -82,12 +82,12 @@ std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"http_head"};
   if (dice.one_in(4)) return mutate_bytes(input, dice);
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_lines(body, kVocabulary, dice);
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_lines(body, behind_bytes(other, 1).body, dice);
+  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
 }
 
 // The first byte says how long the pieces are. An empty line ends whatever is not complete: a head that cannot become a

@@ -37,18 +37,6 @@ const std::array<Layout, 5>& layouts() {
   return kLayouts;
 }
 
-// The functions for the text that a first byte promises.
-struct Form {
-  std::string (*mutate)(std::string_view text, const fuzzing::Vocabulary& vocabulary, fuzzing::Dice& dice);
-  std::string (*cross)(std::string_view text, std::string_view other, fuzzing::Dice& dice);
-};
-Form form_of(std::string_view head) {
-  const std::string_view name = layouts()[static_cast<unsigned char>(head.front()) % layouts().size()].fuzzed;
-  if (name.ends_with(".toml")) return {fuzzing::mutate_toml, fuzzing::cross_toml};
-  if (name.ends_with(".csv")) return {fuzzing::mutate_csv, fuzzing::cross_csv};
-  return {fuzzing::mutate_lines, fuzzing::cross_lines};
-}
-
 DomainFiles files_with(const char* name, std::string_view text) {
   DomainFiles files;
   files.known = {
@@ -67,13 +55,13 @@ std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"model"};
   if (input.empty() || dice.one_in(20)) return mutate_bytes(input, dice);
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + form_of(head).mutate(body, kVocabulary, dice);
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   if (input.empty()) return std::string{other};
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + form_of(head).cross(body, behind_bytes(other, 1).body, dice);
+  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -102,13 +102,13 @@ std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"policy"};
   if (input.empty() || dice.one_in(20)) return mutate_bytes(input, dice);
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_csv(body, kVocabulary, dice);
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   if (input.empty()) return std::string{other};
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_csv(body, behind_bytes(other, 1).body, dice);
+  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

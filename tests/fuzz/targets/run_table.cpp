@@ -43,12 +43,12 @@ std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"run_table"};
   if (dice.one_in(20)) return mutate_bytes(input, dice);
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_csv(body, kVocabulary, dice);
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_csv(body, behind_bytes(other, 1).body, dice);
+  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
 }
 
 // The first byte chooses the table.

@@ -3,7 +3,6 @@
 
 #include "kith/runs/team_codec.hpp"
 #include "../fuzzing.hpp"
-#include "../mutate/mutate_team.hpp"
 
 using namespace kith;
 using fuzzing::require;
@@ -18,34 +17,13 @@ TeamAddress address_of(std::string_view head) {
   return {.composition = "NNP", .team = team};
 }
 
-std::optional<TeamRecord> record_of(std::string_view head, std::string_view content) {
-  const auto address = address_of(head);
-  return decode_team(address, seal_record(address.team, std::string{content}, kKey), kKey);
-}
-
-std::string content_of(const TeamRecord& record) {
-  return std::string{unseal_record(record.address.team, encode_team(record, kKey), kKey).value()};
-}
-
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  const auto [head, body] = behind_bytes(input, 1);
-  auto record = record_of(head, body);
-  if (!record || dice.one_in(10)) return mutate_bytes(input, dice);
-  mutate_team(*record, dice);
-  return std::string{head} + content_of(*record);
-}
+std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_bytes(input, dice); }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto [head, body] = behind_bytes(input, 1);
-  const auto [other_head, other_body] = behind_bytes(other, 1);
-  auto record = record_of(head, body);
-  const auto from = record_of(other_head, other_body);
-  if (!record) return std::string{other};
-  if (from) cross_teams(*record, *from, dice);
-  if (!from) mutate_team(*record, dice);
-  return std::string{head} + content_of(*record);
+  return std::string{input.substr(0, dice.below(input.size() + 1))} +
+         std::string{other.substr(dice.below(other.size() + 1))};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

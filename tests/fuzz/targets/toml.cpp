@@ -20,13 +20,13 @@ void check_assignment(std::string_view text, TomlDocument& document) {
 std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"toml"};
   const auto [head, body] = behind_lines(input, 1);
-  if (dice.one_in(5)) return mutate_toml(head, kVocabulary, dice) + std::string{body};
-  return std::string{head} + mutate_toml(body, kVocabulary, dice);
+  if (dice.one_in(5)) return mutate_text(head, kVocabulary, dice) + std::string{body};
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
   const auto [head, body] = behind_lines(input, 1);
-  return std::string{head} + cross_toml(body, behind_lines(other, 1).body, dice);
+  return std::string{head} + cross_text(body, behind_lines(other, 1).body, dice);
 }
 
 // The first line is an assignment.

@@ -31,11 +31,11 @@ std::size_t depth_of(std::string_view text) {
 std::string fuzzing::mutated(std::string_view input, Dice& dice) {
   static const Vocabulary kVocabulary{"web_frame"};
   if (dice.one_in(20)) return mutate_bytes(input, dice);
-  return mutate_json(input, kVocabulary, dice);
+  return mutate_text(input, kVocabulary, dice);
 }
 
 std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return cross_json(input, other, dice);
+  return cross_text(input, other, dice);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
