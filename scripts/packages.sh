@@ -22,13 +22,18 @@ packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libb
   r-base-core r-cran-car r-cran-emmeans r-cran-jsonlite r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-ordinal
   r-cran-survival)
 
-# is_installed NAME: as a package; or, where people often have another source than Debian, as a command.
-is_installed() {
-  case $1 in
-    nodejs) command -v node >/dev/null && return ;;
-    npm) command -v npm >/dev/null && return ;;
-  esac
-  [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+# missing_packages NAME...: those that are neither installed as packages nor, where people often have another source than
+# Debian, there as commands.
+missing_packages() {
+  local installed package
+  installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ')"
+  for package in "$@"; do
+    case $package in
+      nodejs) ! command -v node >/dev/null || continue ;;
+      npm) ! command -v npm >/dev/null || continue ;;
+    esac
+    [[ $installed == *" $package "* ]] || echo "$package"
+  done
 }
 
 # ensure_packages NAME...: installs those that are not installed; does nothing,
@@ -38,10 +43,8 @@ ensure_packages() {
     say "This is not Debian: the build needs what these packages hold: $*"
     return
   fi
-  local missing=() package
-  for package in "$@"; do
-    is_installed "$package" || missing+=("$package")
-  done
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
   ((${#missing[@]})) || return 0
 
   local as_root=()
@@ -72,15 +75,15 @@ apt_get_install() {
 
 # run_logged WHAT COMMAND...: a dot every few seconds; the output only if it fails.
 run_logged() {
-  local what=$1 log pid
+  local what=$1 log pid dots=$SECONDS
   shift
   log=$(mktemp)
   printf '%s ' "$what" >&2
   "$@" >"$log" 2>&1 </dev/null &
   pid=$!
   while kill -0 "$pid" 2>/dev/null; do
-    sleep 1
-    ((SECONDS % 5)) || printf . >&2
+    sleep 0.1
+    ((SECONDS - dots < 5)) || { dots=$SECONDS && printf . >&2; }
   done
   if ! wait "$pid"; then
     say "failed:"

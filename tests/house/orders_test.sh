@@ -11,7 +11,7 @@ fail() { printf '%s\n' "$*"; exit 1; }
 mkdir "$folder/bin"
 stub() { printf '#!/usr/bin/env bash\n%s\n' "$2" >"$folder/bin/$1" && chmod +x "$folder/bin/$1"; }
 stub apt-get 'for one in "$@"; do [[ $one == -* || $one == install ]] || echo "$one" >>"$STATE/installed"; done'
-stub dpkg-query 'grep -qxF -- "${!#}" "$STATE/installed" && printf installed'
+stub dpkg-query 'sed "s/^/installed /" "$STATE/installed"'
 stub cmake '[[ $1 == --build ]] && exit
 mkdir -p build/release/bin && touch build/release/build.ninja
 printf "#!/bin/sh\n" >build/release/bin/kith && chmod +x build/release/bin/kith
@@ -21,10 +21,13 @@ stub ctest 'echo "$@" >>"$STATE/tests"'
 
 needs() {  # PACKAGE...: fails unless all of them are installed
   local one
-  for one in "$@"; do [[ $one == nodejs || $one == npm ]] || grep -qxF -- "$one" "$STATE/installed" || fail "after $order: $one is not installed"; done
+  for one in "$@"; do
+    [[ $one == nodejs || $one == npm || " ${installed[*]} " == *" $one "* ]] || fail "after $order: $one is not installed"
+  done
 }
 check() {
-  local on
+  local on installed
+  mapfile -t installed <"$STATE/installed"
   on=$(sed -n 's/^\(KITH_[A-Z_]*\):BOOL=ON$/\1/p' build/release/CMakeCache.txt | sort -u)
   needs "${packages_to_build[@]}"
   [[ $on != *KITH_PYTHON* ]] || needs "${packages_for_python[@]}"
