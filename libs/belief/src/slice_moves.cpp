@@ -141,9 +141,11 @@ KITH_VECTOR_CLONES void weigh(const Falls& prior, const Falls& falls, Lanes& lan
   Floats sum{};
   Floats least;
   least.fill(1.0f);
+  const Floats* points = prior.point.data();  // unchecked, for speed
+  const Floats* sides = prior.side.data();
   for (std::size_t j = 0; j < prior.size(); ++j) {
-    const float* const point = prior.point[j].data();
-    const float* const side = prior.side[j].data();
+    const float* const point = points[j].data();
+    const float* const side = sides[j].data();
     KITH_INDEPENDENT_LOOP
     for (std::size_t i = 0; i < kLanes; ++i) {
       const float t = point[i] * lanes.cosine[i] + side[i] * lanes.sine[i];
@@ -151,11 +153,15 @@ KITH_VECTOR_CLONES void weigh(const Falls& prior, const Falls& falls, Lanes& lan
     }
   }
 
+  points = falls.point.data();
+  sides = falls.side.data();
+  const float* const fars = falls.far.data();
+  const float* const slopes = falls.slope.data();
   for (std::size_t j = 0; j < falls.size(); ++j) {
-    const float* const point = falls.point[j].data();
-    const float* const side = falls.side[j].data();
-    const float far = falls.far[j];
-    const float slope = falls.slope[j];
+    const float* const point = points[j].data();
+    const float* const side = sides[j].data();
+    const float far = fars[j];
+    const float slope = slopes[j];
     KITH_INDEPENDENT_LOOP
     for (std::size_t i = 0; i < kLanes; ++i) {
       const float t = point[i] * lanes.cosine[i] + side[i] * lanes.sine[i];
