@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -212,18 +213,15 @@ std::vector<HalfSpace> reduced(const std::vector<HalfSpace>& list, const Cone& p
 }  // namespace
 
 ConsistentSubsets largest_consistent_subsets(std::span<const std::vector<HalfSpace>> lists, const Cone& prior) {
-  ConsistentSubsets result;
+  ConsistentSubsets result{{}, {lists.begin(), lists.end()}};
   std::optional<Cone> everybody = prior;
-  for (const auto& list : lists) {
-    result.reduced_lists.push_back(reduced(list, prior));
-    everybody = region_of(result.reduced_lists.back(), std::move(everybody));
-  }
+  for (const auto& list : lists) everybody = region_of(list, std::move(everybody));
   if (everybody) {
-    Subset all;
-    for (std::size_t i = 0; i < lists.size(); ++i) all.push_back(i);
-    result.subsets.push_back(std::move(all));
+    auto& all = result.subsets.emplace_back(lists.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
     return result;
   }
+  for (auto& list : result.reduced_lists) list = reduced(list, prior);
   const std::set<Subset> largest = largest_agreeing(prior, result.reduced_lists);
   result.subsets.assign(largest.begin(), largest.end());
   return result;
