@@ -38,8 +38,7 @@ class TestSelection {
         visited_{visited},
         random_{random},
         preferences_{preferences},
-        is_shown_(atlas.num_states(), false),
-        num_tested_(atlas.num_states(), 0) {
+        is_shown_(atlas.num_states(), false) {
     for (const auto demo : visited.in_order()) is_shown_[atlas.trajectory_class(demo)] = true;
   }
 
@@ -53,7 +52,12 @@ class TestSelection {
         ++choice.untested;
       }
     }
-    while (auto test = covering_several(open)) choice.tests.push_back(std::move(*test));
+    if (open.size() > 1) num_tested_.assign(atlas_.num_states(), 0);
+    while (open.size() > 1) {
+      auto test = covering_several(open);
+      if (!test) break;
+      choice.tests.push_back(std::move(*test));
+    }
     for (auto one = open.rbegin(); one != open.rend(); ++one) choice.tests.push_back(covering_one(*one, taught));
     for (const auto& test : choice.tests) visited_.insert(test.demo);
     return choice;
