@@ -73,7 +73,11 @@ RegionEffect Regions::effect(const ConstraintSet& taught, const ConstraintSet& a
   if (both == taught) return {};
   const Region& after = of(both);
   KITH_ASSERT(after.area_sr > 0.0);  // the robot's weights satisfy everything that is conveyed
-  return {of(taught).area_sr / after.area_sr, after.minimal.without(taught).count()};
+  if (taught_ == nullptr || !(taught_->first == taught)) {
+    static_cast<void>(of(taught));
+    taught_ = &*known_.find(taught);
+  }
+  return {taught_->second.area_sr / after.area_sr, after.minimal.without(taught).count()};
 }
 
 Regions::Comparison& Regions::comparison_with(const ConstraintSet& taught) {

@@ -104,7 +104,8 @@ class ConstraintSet {
 
 }  // namespace kith
 
+/// Not noexcept, so that tables of the C++ library keep the hashes of long keys.
 template <>
 struct std::hash<kith::ConstraintSet> {
-  std::size_t operator()(const kith::ConstraintSet& set) const noexcept { return kith::hash_words(set.used_words()); }
+  std::size_t operator()(const kith::ConstraintSet& set) const { return kith::hash_words(set.used_words()); }
 };

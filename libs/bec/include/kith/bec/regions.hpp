@@ -33,6 +33,8 @@ struct RegionEffect {
 class Regions {
  public:
   explicit Regions(const ConstraintTable& table) : table_{&table} {}
+  Regions(const Regions&) = delete;
+  Regions& operator=(const Regions&) = delete;
 
   /// The region of the intersection of `set`; the empty set is the whole sphere.
   /// The reference stays valid as long as this object.
@@ -64,6 +66,7 @@ class Regions {
 
   const ConstraintTable* table_;
   std::unordered_map<ConstraintSet, Region> known_;
+  const std::pair<const ConstraintSet, Region>* taught_ = nullptr;  // the last one that effect() was asked of
   std::unordered_map<ConstraintSet, ConstraintSet> minimal_;  // above three dimensions
   std::list<Comparison> comparisons_;                         // the last few, the latest first
 };
