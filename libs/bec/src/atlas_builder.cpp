@@ -328,10 +328,15 @@ void AtlasBuilder::group_starts() {
       atlas_.classes_.emplace_back().emplace_back(i);
     }
   }
+  Regions regions{atlas_.constraints_};
   for (auto& component : atlas_.components_) {
+    auto conveyed = atlas_.no_constraints();
     for (StartClassIndex c{0}; c.value() < atlas_.num_start_classes(); ++c) {
-      if (component.uses_mdp[atlas_.id(atlas_.members(c).front()).mdp.value()]) component.start_classes.push_back(c);
+      if (!component.uses_mdp[atlas_.id(atlas_.members(c).front()).mdp.value()]) continue;
+      component.start_classes.push_back(c);
+      if (tables_) tables_->add_conveyed(c, conveyed);
     }
+    if (tables_) component.conveyed = regions.minimal(conveyed);
   }
 }
 

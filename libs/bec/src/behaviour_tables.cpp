@@ -19,6 +19,14 @@ std::optional<IntegerVector> BehaviourTables::answer(StartIndex demo, PolicyCell
   return start.robot_counts - hull(start.hull).losses[choice];
 }
 
+void BehaviourTables::add_conveyed(StartClassIndex start_class, ConstraintSet& set) const {
+  for (const auto h : hulls_of_class_[start_class.value()]) {
+    for (const auto c : constraints_[h.value()]) {
+      if (c >= 0) set.insert(ConstraintIndex{static_cast<std::size_t>(c)});
+    }
+  }
+}
+
 void BehaviourTables::add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells,
                                    std::span<std::uint64_t> row) const {
   const auto& constraint_of = constraints_[h.value()];

@@ -20,6 +20,11 @@ namespace {
 constexpr double kGainTolerance = 1e-6;
 constexpr double kTieTolerance = 1e-5;
 
+// Whether what is added makes the taught region smaller.
+bool adds(TeachingCache& cache, const ConstraintSet& taught, const ConstraintSet& added) {
+  return cache.regions().effect(taught, added).gain > 1.0 + kGainTolerance;
+}
+
 // What showing any demonstration of one class would do to the taught region.
 struct Prospect {
   StartClassIndex start_class;
@@ -124,6 +129,7 @@ class Selection {
     effects_.restart(words, component_.start_classes.size());
     for (const auto c : component_.start_classes) {
       const std::uint64_t* const row = conveyed_.rows.data() + c.value() * words;
+      if (std::all_of(row, row + words, [](std::uint64_t word) { return word == 0; })) continue;
       const auto& effect = effects_.of(row, [&] { return cache_.regions().effect(taught_region, conveyed_.set(c)); });
       if (effect.gain > 1.0 + kGainTolerance) prospects.push_back({c, effect.gain, effect.num_new});
     }
@@ -195,26 +201,33 @@ std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, cons
   return cells;
 }
 
-Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const KnowledgeComponent& component,
+Unit select_demonstrations(TeachingCache& cache, const ParticleBelief& belief, const KnowledgeComponent& component,
                            std::span<const HalfSpace> taught_region, VisitedStarts visited,
                            const SelectionOptions& options, RandomStream random) {
   Unit unit;
   ConstraintSet taught = cache.numbers_of(taught_region);
   Selection selection{cache, component, visited};
   std::vector<std::size_t> particles;
+  std::optional<ParticleBelief> expected;  // once something is shown
   const std::size_t most = options.max_demonstrations;
   for (std::uint64_t step = 0; most == 0 || step < most; ++step) {
+    if (component.conveyed && !adds(cache, taught, *component.conveyed)) break;  // nobody can be told anything new
+    if (step > 0) {
+      if (!expected) expected = belief;
+      expected->observe(unit.demonstrations.back().half_spaces, options.likelihood,
+                        random.split(step - 1).split("copy"));
+    }
+    const auto& now = expected ? *expected : belief;
     const auto here = random.split(step);
     particles.clear();
     const auto cells =
-        sample_counterfactuals(cache.behaviours(), belief, options, here.split("counterfactuals"), &particles);
+        sample_counterfactuals(cache.behaviours(), now, options, here.split("counterfactuals"), &particles);
     auto next = selection.next(cells, taught, unit.demonstrations, here.split("looks"));
     if (!next) break;
     next->counterfactuals.reserve(particles.size());
-    for (const auto i : particles) next->counterfactuals.push_back(belief.point(i));
+    for (const auto i : particles) next->counterfactuals.push_back(now.point(i));
     visited.insert(next->demo);
     taught = cache.regions().minimal(taught | cache.numbers_of(next->half_spaces));
-    belief.observe(next->half_spaces, options.likelihood, here.split("copy"));
     unit.demonstrations.push_back(std::move(*next));
   }
   unit.taught_region = cache.constraints().half_spaces(taught);
@@ -222,15 +235,11 @@ Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const Kn
 }
 
 ConstraintSet open_facets(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown) {
-  auto& regions = cache.regions();
-  const auto is_open = [&](ConstraintIndex facet) {
-    ConstraintSet alone;
-    alone.insert(facet);
-    return regions.effect(shown, alone).gain > 1.0 + kGainTolerance;
-  };
   ConstraintSet open;
   for (const auto facet : facets.without(shown).members()) {
-    if (is_open(facet)) open.insert(facet);
+    ConstraintSet alone;
+    alone.insert(facet);
+    if (adds(cache, shown, alone)) open.insert(facet);
   }
   return open;
 }

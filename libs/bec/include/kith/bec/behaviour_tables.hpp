@@ -61,6 +61,8 @@ class BehaviourTables {
     HullIndex hull;
   };
 
+  // Adds what demonstrations of a class convey to anybody.
+  void add_conveyed(StartClassIndex start_class, ConstraintSet& set) const;
   // ORs into `row` what hull h conveys to the cells.
   void add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct KnowledgeComponent {
   std::vector<bool> uses_mdp;         ///< Shape [num_mdps]: whether the MDP lacks the masked features.
   std::vector<StartClassIndex> start_classes;  ///< Those whose members start in such MDPs, ascending.
   ConstraintSet constraints;                   ///< Minimal set of the one-step constraints of those MDPs.
+  /// Minimal set of all that demonstrations of these classes convey to anybody; nothing without BehaviourTables.
+  std::optional<ConstraintSet> conveyed;
   double area_sr = 0.0;     ///< Area of the constraints with the prior on the unit sphere; sr for d = 3.
   double area_error = 0.0;  ///< Its standard error; 0 for d = 2 and 3.
 };

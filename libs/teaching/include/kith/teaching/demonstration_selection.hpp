@@ -43,7 +43,7 @@ struct SelectionOptions {
 /// @param taught_region  R_n, minimal, with the prior.
 /// @param visited  what may not be chosen.
 /// @return the unit; without demonstrations if none has gain.
-[[nodiscard]] Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief,
+[[nodiscard]] Unit select_demonstrations(TeachingCache& cache, const ParticleBelief& belief,
                                          const KnowledgeComponent& component, std::span<const HalfSpace> taught_region,
                                          VisitedStarts visited, const SelectionOptions& options, RandomStream random);
 
