@@ -214,7 +214,7 @@ describe('a lesson', () => {
       await reads(card.locator('h2'), /Where will the robot go/); // the path is not whole
       await press(page, shown.frames); // the robot's path after a detour
       await page.keyboard.press('Enter');
-      await reads(card, /Not quite.*accept 2 more steps for nothing/s);
+      await reads(card, /Not quite.*It would rather not take 2 more steps/s);
       assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Not quite');
       await reads(card.locator('.ledger'), /RobotYou/);
       assert.deepEqual(await card.locator('.chip text').allTextContents(), ['+2 steps']);

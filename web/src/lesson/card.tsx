@@ -7,6 +7,7 @@ import { Brackets } from '../shared/play/brackets';
 import { Button } from '../shared/play/button';
 import { Compare } from '../shared/play/compare';
 import { Fan, stateAt } from '../shared/play/fan';
+import { countsOf } from '../shared/play/ledger';
 import { Mark } from '../shared/play/mark';
 import { RunsView, type Runs } from '../shared/play/runs';
 import { SmallBoard } from '../shared/play/small_board';
@@ -81,7 +82,7 @@ interface Pair {
 // First with one's own; what the board was chosen for, if that is something else, with the path that shows it.
 function pairsOf(context: Context, shown: Demonstration | Test, { mine, verdict }: Guess): Pair[] {
   const isWrong = mine !== null && !verdict?.isRight;
-  const why = isWrong && verdict?.counts ? choiceText(context.lesson, shown.counts, verdict.counts) : '';
+  const why = isWrong ? whyNot(context, shown, mine) : '';
   const title = t(`feedback.title.${!mine ? 'none' : isWrong ? 'wrong' : 'right'}`);
   const own: Pair = { title, other: isWrong ? mine : null, isMine: true, at: isWrong ? partingOf(shown, mine) : null, reason: why };
   if (!isExample(shown)) return [own];
@@ -89,6 +90,15 @@ function pairsOf(context: Context, shown: Demonstration | Test, { mine, verdict 
   if (!isWrong) return [taught];
   if (!shown.alternative) return [own];
   return why === shown.reason.split(': ')[0] ? [{ ...own, reason: shown.reason }] : [own, taught];
+}
+
+// Of the two paths that are drawn, where chance has no part in them.
+function whyNot({ lesson }: Context, shown: Demonstration | Test, mine: Path): string {
+  if (shown.runs) return '';
+  const [isEndless, isMineEndless] = [shown, mine].map((path) => path.repeats_from !== undefined);
+  if (isEndless && isMineEndless) return '';
+  if (isMineEndless) return 'it would rather finish than go on for ever';
+  return isEndless ? 'it would rather go on for ever than finish' : choiceText(lesson, countsOf(shown.frames), countsOf(mine.frames));
 }
 
 function Seen({ shown, guess, isStill, next, ...context }: Context & Pick<Props, 'guess' | 'next'> & { shown: Demonstration | Test; guess: Guess; isStill: boolean }): JSX.Element {
@@ -103,7 +113,7 @@ function Seen({ shown, guess, isStill, next, ...context }: Context & Pick<Props,
   const reason = <Reason reason={pair.reason} shown={shown} word={word} isAsGood={word === 'right' && guess.mine !== null && partingOf(shown, guess.mine) !== null} />;
   const goOn = (
     <>
-      {isLast && isExample(shown) && <Brackets brackets={shown.brackets} />}
+      {isLast && isExample(shown) && <Brackets brackets={shown.brackets} counted={domain.counted} />}
       <div class="submit act-bar no-print">
         {isLast ? (
           next

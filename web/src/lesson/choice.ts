@@ -1,6 +1,5 @@
 // Why the robot does not do what somebody predicted, in the words of the domain: "it would rather take 2 more steps than
 // cross rubble".
-import { listed } from '../shared/texts';
 import type { Domain, Lesson } from './document';
 
 type Feature = Domain['features'][number];
@@ -23,37 +22,25 @@ function oneMore(once: string): string {
 const said = (one: string, many: string, n: number, more: boolean): string =>
   n === 1 ? (more ? oneMore(one) : one) : numbered(many, n, more);
 
-const nouns = (all: Surplus[]): string => listed(all.map(({ feature, n, more }) => said(feature.words, feature.many, n, more)));
-const verbs = (all: Surplus[]): string => listed(all.map(({ feature, n, more }) => said(feature.do, feature.do_many, n, more)));
+function deed({ feature, n, more }: Surplus): string {
+  if (feature.do !== '') return said(feature.do, feature.do_many, n, more);
+  return `${feature.weight < 0 ? 'accept' : 'choose'} ${said(feature.words, feature.many, n, more)}`;
+}
 
-// Of two paths that count differently, the robot's being the better one. Empty where expectations decide.
-export function choiceText({ domain, judge }: Lesson, robot: number[], mine: number[]): string {
-  const taken: { costs: Surplus[]; gains: Surplus[] } = { costs: [], gains: [] };
-  const spared: { costs: Surplus[]; gains: Surplus[] } = { costs: [], gains: [] };
-  domain.features.forEach((feature, k) => {
-    const [ours, theirs] = [(robot[k] ?? 0) / judge.scale, (mine[k] ?? 0) / judge.scale];
-    if (ours === theirs) return;
-    const side = ours > theirs ? taken : spared;
-    const surplus = { feature, n: Math.abs(ours - theirs), more: ours !== 0 && theirs !== 0 };
-    (feature.weight < 0 ? side.costs : side.gains).push(surplus);
+// Of two paths that count differently, the robot's being the better one, in two things; else empty.
+export function choiceText({ domain }: Lesson, robot: number[], mine: number[]): string {
+  const all = domain.features.flatMap((feature, k): (Surplus & { isTaken: boolean })[] => {
+    const [ours, theirs] = [robot[k] ?? 0, mine[k] ?? 0];
+    return ours === theirs ? [] : [{ feature, n: Math.abs(ours - theirs), more: ours !== 0 && theirs !== 0, isTaken: ours > theirs }];
   });
-  const all = [...taken.costs, ...taken.gains, ...spared.costs, ...spared.gains];
-  if (all.length === 0 || all.some(({ n }) => n !== Math.round(n))) return '';
-  if (taken.costs.length === 0 && spared.gains.length === 0) {
-    const lost = taken.gains.length > 0 ? `does without ${nouns(taken.gains)}` : '';
-    const extra = spared.costs.length > 0 ? `makes the robot accept ${nouns(spared.costs)}` : '';
-    return `this path ${[extra, lost].filter((text) => text !== '').join(' and ')} for nothing`;
-  }
-  const hasVerbs = all.every(({ feature }) => feature.do !== '');
-  const joined = ({ costs, gains }: typeof taken): string => {
-    const words = hasVerbs ? verbs : nouns;
-    if (costs.length === 0 || gains.length === 0) return words(costs.length === 0 ? gains : costs);
-    return `${words(costs)}${hasVerbs ? ' to ' : ' for '}${words(gains)}`;
+  const worth = all.reduce((sum, { feature, n, isTaken }) => sum + feature.weight * (isTaken ? n : -n), 0);
+  if (all.length === 0 || all.length > 2 || worth <= 0 || all.some(({ n }) => n !== Math.round(n))) return '';
+  const words = (isTaken: boolean, between: string): string => {
+    const some = all.filter((one) => one.isTaken === isTaken).sort((a, b) => a.feature.weight - b.feature.weight);
+    return some.map(deed).join(some.every(({ feature }) => feature.weight < 0) ? between : ' to ');
   };
-  const isEmpty = ({ costs, gains }: typeof taken): boolean => costs.length === 0 && gains.length === 0;
-  if (isEmpty(spared)) {
-    return hasVerbs ? `it will ${verbs(taken.costs)} to ${verbs(taken.gains)}` : `it accepts ${nouns(taken.costs)} for ${nouns(taken.gains)}`;
-  }
-  if (isEmpty(taken)) return `it would rather do without ${nouns(spared.gains)} than ${hasVerbs ? verbs(spared.costs) : `accept ${nouns(spared.costs)}`}`;
-  return hasVerbs ? `it would rather ${joined(taken)} than ${joined(spared)}` : `it prefers ${joined(taken)} to ${joined(spared)}`;
+  const [taken, spared] = [words(true, ' and '), words(false, ' or ')];
+  if (spared === '') return all.every(({ feature }) => feature.weight > 0) ? `it would rather ${taken} than not` : `it will ${taken}`;
+  if (taken !== '') return `it would rather ${taken} than ${spared}`;
+  return all.some(({ feature }) => feature.weight > 0) ? `it will not ${spared}` : `it would rather not ${spared}`;
 }

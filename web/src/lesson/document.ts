@@ -58,7 +58,6 @@ export interface Lesson {
   components: Component[];
   fresh: Test[];
   endless: (Board & Path) | null; // from where the robot never arrives
-  skipped: { name: string; why: string }[];
 }
 
 export const kSchema = 'kith.curriculum/1';

@@ -142,7 +142,11 @@ function Introduction({ lesson, cards, isQuiet, onStart }: IntroductionProps): J
   return (
     <section id="introduction">
       <Title isQuiet={isQuiet}>How it works</Title>
-      {lesson.domain.job && <p class="job">{lesson.domain.job}</p>}
+      {lesson.domain.job && (
+        <p class="job">
+          {lesson.domain.job} {lesson.endless && 'Sometimes it would rather go on for ever.'}
+        </p>
+      )}
       {update && <p>{update.text}</p>}
       {cards.length > 0 && (
         <>

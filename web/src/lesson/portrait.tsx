@@ -7,8 +7,6 @@ import type { Card } from './cards';
 import { counted, partingOf, upperFirst, usePrinting, type Context, type Guess } from './context';
 import type { Component, Demonstration } from './document';
 
-const kEasy = 2; // so many things are weighed in a sentence that people remember
-
 interface EndProps extends Context {
   answers: { card: Card; guess: Guess | null }[];
   more: number; // boards that are offered
@@ -49,19 +47,18 @@ function shownBy({ demonstrations }: Component, all: Component[], text: string):
 }
 
 function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>): JSX.Element {
-  const isPrinting = usePrinting();
-  const { components, skipped, endless, update } = context.lesson;
+  const { components, endless, update } = context.lesson;
   const known = new Map<number, Bracket>();
   for (const { brackets } of components.flatMap(({ demonstrations }) => demonstrations)) {
     for (const bracket of brackets) known.set(bracket.feature, bracket);
   }
   const said = new Set<string>();
   const lines = components.flatMap((component) =>
-    component.sentences.flatMap(({ text, normal }) => {
+    component.sentences.flatMap(({ text }) => {
       if (text === '' || said.has(text)) return [];
       said.add(text);
       const board = shownBy(component, components, text);
-      return [{ text, board, things: normal.filter((n) => n !== 0).length }];
+      return [{ text, board }];
     }),
   );
   const shown = (some: typeof lines): JSX.Element => (
@@ -74,7 +71,6 @@ function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>):
       ))}
     </ul>
   );
-  const fine = lines.filter(({ things }) => things > kEasy);
   return (
     <div class="portrait">
       {endless && (
@@ -86,29 +82,9 @@ function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>):
         </ul>
       )}
       {update && <h3>What is new</h3>}
-      {shown(lines.filter(({ things }) => things <= kEasy))}
+      {shown(lines)}
       {update && update.still.length > 0 && <p>As before, {update.still.join('; ')}.</p>}
-      {fine.length > 0 && (
-        <details open={isPrinting}>
-          <summary>
-            {counted(fine.length, 'finer trade-off')}, of more than {kEasy} things
-          </summary>
-          {shown(fine)}
-        </details>
-      )}
-      <Brackets brackets={[...known.values()]} />
-      {skipped.length > 0 && (
-        <>
-          <h3>Not in this lesson</h3>
-          <ul>
-            {skipped.map(({ name, why }) => (
-              <li>
-                {upperFirst(name)}: {why}.
-              </li>
-            ))}
-          </ul>
-        </>
-      )}
+      <Brackets brackets={[...known.values()]} counted={context.domain.counted} />
       <FirstAndLast {...context} answers={answers} />
     </div>
   );

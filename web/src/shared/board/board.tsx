@@ -1,7 +1,7 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
-import { Chips, type Chip } from './chips';
+import { Chips, counting, type Chip } from './chips';
 import { Fan, type Arm } from './fan';
 import { centre, kMargin, kMoves, kUnit, lineOf, type Attempt, type Point } from './geometry';
 import { At, Destination, fillOf, PartGlyph, Robot, Station, Thing } from './glyphs';
@@ -58,8 +58,6 @@ export function BoardView(props: BoardProps): JSX.Element {
   const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
   const kind = props.kind ?? 'own';
   const last = Math.max(board.frames.length, other?.length ?? 0) - 1;
-  // Of two paths that have been gone, it is the place where they separate that tells why.
-  const centred = props.whole && decisive?.cell && walked >= last ? decisive.cell : frame.robot;
   const otherKind = props.otherKind ?? 'other';
   const drawn = props.whole ? last : walked;
   const ownDrawn = props.whole ? board.frames.length - 1 : step;
@@ -68,6 +66,10 @@ export function BoardView(props: BoardProps): JSX.Element {
   const ground = useMemo(() => <Ground domain={domain} legend={props.legend} board={board} />, [domain, props.legend, board.map, board.fences]);
   const others = other && drawn > first ? other.slice(0, Math.min(drawn, props.otherClosedAt ?? drawn) + 1) : [];
   const thingsAt = ([x, y]: Place): string[] => props.legend.parts(board.map?.[y - 1]?.charAt(x - 1) ?? '').map(({ name }) => name);
+  // Of two paths that have been gone, it is the place where they separate that tells why, and what counts behind it.
+  const fork = props.whole && walked >= last ? decisive?.cell : undefined;
+  const reason = (props.chips ?? []).map((chip) => counting(chip, board.frames, other ?? [], first, thingsAt)).find((cell) => cell !== null);
+  const centred = fork ? between(fork, reason ?? fork) : frame.robot;
   const drawing = (
     <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} {...(label === '' ? { 'aria-hidden': true } : { role: 'img', 'aria-label': label })}>
       {ground}
@@ -102,6 +104,14 @@ export function BoardView(props: BoardProps): JSX.Element {
       )}
     </div>
   );
+}
+
+const kNear = 10; // cells that the window of a phone shows
+
+// The middle of two places that a window shows together, else the first.
+function between(a: Place, b: Place): Place {
+  const isNear = Math.max(Math.abs(a[0] - b[0]), Math.abs(a[1] - b[1])) <= kNear;
+  return isNear ? [Math.round((a[0] + b[0]) / 2), Math.round((a[1] + b[1]) / 2)] : a;
 }
 
 // What covers cells, walls and terrain, and stays the same whatever the robot does.

@@ -31,7 +31,8 @@ export function Chips({ chips, frames, other, first, thingsAt, width, height }: 
       {chips.map(({ kind, text, feature, thing }) => {
         const [way, away] = kind === 'own' ? [frames, other] : [other, frames];
         const half = { x: (text.length * size * 0.56 + size * 1.2) / 2, y: size * 0.85 };
-        const at = freeOf(counting(way.slice(first), away.slice(first), feature, thing, thingsAt) ?? middle(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
+        const cell = counting({ kind, text, feature, thing }, frames, other, first, thingsAt);
+        const at = freeOf(cell ? below(cell) : middle(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
         const x = Math.max(half.x - kMargin, Math.min(width - 2 * kMargin - half.x + kMargin, at.x));
         const y = Math.max(half.y - kMargin, Math.min(height - 2 * kMargin - half.y + kMargin, at.y));
         taken.push({ x, y });
@@ -48,8 +49,9 @@ export function Chips({ chips, frames, other, first, thingsAt, width, height }: 
   );
 }
 
-// Below the middle of the cell on which it counts: of several that of the middle. Nothing where every step counts.
-function counting(way: Frame[], away: Frame[], feature: number, thing: string, thingsAt: (cell: Place) => string[]): Point | null {
+// Of the cells on which it counts the one in the middle. Nothing where every step counts.
+export function counting({ kind, feature, thing }: Chip, frames: Frame[], other: Frame[], first: number, thingsAt: (cell: Place) => string[]): Place | null {
+  const [way = [], away = []] = (kind === 'own' ? [frames, other] : [other, frames]).map((all) => all.slice(first));
   const cellsOf = (frames: Frame[]): Place[] =>
     frames.flatMap(({ robot, counts }, t): Place[] => {
       if (!robot || !counts?.[feature]) return [];
@@ -58,8 +60,12 @@ function counting(way: Frame[], away: Frame[], feature: number, thing: string, t
     });
   const [all, others] = [cellsOf(way), new Set(cellsOf(away).map(String))];
   const own = all.filter((cell) => !others.has(String(cell)));
-  const cell = (own.length > 0 ? own : all)[Math.floor((own.length || all.length) / 2)];
-  if (!cell || all.length === way.length - 1) return null;
+  if (all.length === way.length - 1) return null;
+  return (own.length > 0 ? own : all)[Math.floor((own.length || all.length) / 2)] ?? null;
+}
+
+// So that what is on the cell is seen.
+function below(cell: Place): Point {
   const { x, y } = centre(cell);
   return { x, y: y + 0.3 * kUnit };
 }

@@ -17,8 +17,8 @@ export interface Bracket {
 
 const valueOf = (ratio: Ratio | null): number | null => (ratio ? ratio[0] / ratio[1] : null);
 
-// `counted` names features where the sentence, which is English, cannot be said.
-export function Brackets({ brackets, counted = [] }: { brackets: Bracket[]; counted?: Counted[] | undefined }): JSX.Element | null {
+// `counted` names the unit, and features where the sentence, which is English, cannot be said.
+export function Brackets({ brackets, counted = [] }: { brackets: Bracket[]; counted: Counted[] | undefined }): JSX.Element | null {
   if (brackets.length === 0) return null;
   return (
     <div class="brackets">
@@ -32,6 +32,7 @@ export function Brackets({ brackets, counted = [] }: { brackets: Bracket[]; coun
 
 const kWidth = 320;
 const kSide = 14;
+const kRight = 56; // with room for the unit
 
 // "Crossing rubble, measured in steps: 2 to 4"
 function inNumbers({ feature, reference, ends: [from, to] }: Bracket, counted: Counted[]): string {
@@ -49,8 +50,8 @@ function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): 
   const ends = [from, to].flatMap((end) => (end === null ? [] : [end]));
   const most = Math.max(2, ...ends.map((end) => Math.ceil(Math.abs(end) * 1.5)));
   const least = from === null || from < 0 ? -most : 0;
-  const place = (x: number): number => kSide + ((x - least) / (most - least)) * (kWidth - 2 * kSide);
-  const [left, right] = [from === null ? kSide : place(from), to === null ? kWidth - kSide : place(to)];
+  const place = (x: number): number => kSide + ((x - least) / (most - least)) * (kWidth - kSide - kRight);
+  const [left, right] = [from === null ? kSide : place(from), to === null ? kWidth - kRight : place(to)];
   const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].find((one) => (most - least) / one <= 8) ?? 2000;
   const ticks: number[] = [];
   for (let x = Math.ceil(least / step) * step; x <= most; x += step) ticks.push(x);
@@ -59,14 +60,14 @@ function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): 
       <p>{isEnglish() ? sentence(bracket.text) : inNumbers(bracket, counted)}</p>
       {ends.some((end) => end !== 0) && ( // a scale tells nothing where only the sign is known
         <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
-          <path class="axis" d={`M${kSide} 13H${kWidth - kSide}`} />
+          <path class="axis" d={`M${kSide} 13H${kWidth - kRight}`} />
           <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />
           {from !== null && from !== 0 && <path class="end" d={`M${left} 3V23`} />}
           {to !== null && <path class="end" d={`M${right} 3V23`} />}
           {to === null && <path class="on" d={`M${right - 3} 7l6 6-6 6`} />}
-          {ticks.map((x) => (
-            <text x={place(x)} y={36} text-anchor="middle" font-size={12}>
-              {Math.abs(x)}
+          {ticks.map((x, i) => (
+            <text x={place(x) - (i + 1 < ticks.length ? 0 : 4)} y={36} text-anchor={i + 1 < ticks.length ? 'middle' : 'start'} font-size={12}>
+              {Math.abs(x)} {i + 1 < ticks.length ? '' : (counted[bracket.reference]?.many ?? '')}
             </text>
           ))}
         </svg>

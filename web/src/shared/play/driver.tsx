@@ -80,6 +80,7 @@ export function Driver({ board, legend, world, drive, off, isForEver, children, 
       </div>
       <div class="side">
         <Ledger board={board} columns={[{ name: t('ledger.you'), kind: 'other', counts: countsOf(drive.frames) }]} />
+        {drive.frames.some(({ action, counts }) => (action === 'pickup' || action === 'dropoff') && counts?.some((n) => n > 0)) && <p class="muted">{t('ledger.handling')}</p>}
         <div class="act-bar driving">
           <Pad
             actions={world.actions}
