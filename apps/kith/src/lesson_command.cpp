@@ -150,6 +150,7 @@ int run(const LessonOptions& options, Console& console) {
   auto document = lesson_document(make_session_study(reading, folder), program_name());
   for (const auto& origin : options.origins) require_origin(origin);
   document["origins"] = options.origins;
+  if (!is_study(options.what) && options.set.empty()) document["alone"] = true;
   if (options.is_playground) {
     if (is_package) refuse("--playground makes a page, not a package for learning systems", "name a file.html with -o");
     document["playground"] = true;

@@ -7,6 +7,7 @@ export interface LessonFile {
   inputs: Record<string, string>; // study, domain, and what they name
   setup: Record<string, unknown>; // of the room
   origins: string[]; // of pages around this one that are told how it goes
+  alone?: true; // a domain without a study
   package?: true; // made for a learning system
   playground?: true; // the domain can be changed
 }

@@ -12,6 +12,7 @@ const kLongest = 2 ** 31 - 1; // milliseconds that a timer takes
 
 export class LocalServer implements Transport {
   readonly isLocal = true;
+  readonly isAlone: boolean;
   private log: Log;
   private state: State | null = null;
   private pipe: LocalPipe | null = null;
@@ -35,6 +36,7 @@ export class LocalServer implements Transport {
       elsewhere: (isElsewhere: boolean) => void; // another tab has the lesson now, or this one again
     },
   ) {
+    this.isAlone = file.alone === true;
     this.log = log ?? emptyLog(file);
     this.opened = this.load();
     window.addEventListener('storage', () => void this.isHere());

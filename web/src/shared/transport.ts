@@ -11,6 +11,7 @@ export interface Pipe {
 
 export interface Transport {
   isLocal: boolean;
+  isAlone: boolean; // without a study: there is nothing to agree to, and nobody to show a code to
   open: () => Pipe;
   /** A document of the server; throws if it cannot be had. */
   get: (path: string, token?: string) => Promise<unknown>;
@@ -20,6 +21,7 @@ export interface Transport {
 
 const network: Transport = {
   isLocal: false,
+  isAlone: false,
   open: () => new WebSocket(`${location.protocol === 'https:' ? 'wss:' : 'ws:'}//${location.host}/ws`) as Pipe,
   get: async (path, token) => {
     const reply = await fetch(path, token === undefined ? {} : { headers: { Authorization: `Bearer ${token}` } });

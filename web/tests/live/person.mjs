@@ -89,9 +89,10 @@ export class Person {
   }
 
   async consent() {
-    await this.at('Before you start');
-    await this.page.getByRole('checkbox').check();
-    await this.button('Agree and continue').click();
+    await this.atStage('consent');
+    const box = this.page.getByRole('checkbox');
+    if ((await box.count()) > 0) await box.check();
+    await this.page.locator('main button.primary').first().click();
   }
 
   async check() {

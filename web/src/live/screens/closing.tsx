@@ -10,6 +10,7 @@ import type { Judged, ParticipantView, Update } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { pathOf } from './feedback';
 import { hasText, isEnglish, sentence, t, type TextKey } from '../../shared/texts';
+import { transport } from '../../shared/transport';
 
 interface DebriefProps extends ScreenProps {
   debrief: NonNullable<ParticipantView['debrief']>;
@@ -24,7 +25,7 @@ export function Debrief({ debrief, isSaved, view, connection }: DebriefProps): J
       <Heading>{t('debrief.title')}</Heading>
       <p class="lead">{t('debrief.done')}</p>
       {tests > 0 && <p>{t('debrief.score', { right, tests, rounds })}</p>}
-      {code && <CompletionCode code={code} />}
+      {code && !transport().isAlone && <CompletionCode code={code} />}
       <GoOn address={redirect} isSaved={isSaved} />
       <Sentences name="summary" texts={summary} boards={memory.boards} update={view.study.update} />
       <Sentences name="not_reached" texts={not_reached} />

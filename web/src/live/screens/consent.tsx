@@ -16,6 +16,7 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
   const [declines, setDeclines] = useState(false);
   const off = connection.isPending('consent');
   const { version } = consent;
+  if (transport().isAlone) return <Start off={off} onStart={() => connection.send('consent', { accept: true, version })} />;
   const paragraphs = [...consent.paragraphs, ...(transport().isLocal ? transport().notices() : whatIsStored(consent.stores))];
   const agree = (): void => {
     setMissing(!agrees);
@@ -69,6 +70,20 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
           </div>
         )}
       </div>
+    </>
+  );
+}
+
+// Who is told something agrees to that.
+function Start({ off, onStart }: { off: boolean; onStart: () => void }): JSX.Element {
+  const notices = transport().notices();
+  return (
+    <>
+      <Heading>{t('predict.title')}</Heading>
+      <Paragraphs texts={notices} />
+      <Button primary off={off} onClick={onStart}>
+        {t(notices.length > 1 ? 'consent.agree' : 'consent.start')}
+      </Button>
     </>
   );
 }
