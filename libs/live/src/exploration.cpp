@@ -19,7 +19,7 @@ namespace {
 constexpr int kMostColumns = 12;  // of a map that pages draw in full size
 constexpr std::size_t kMostStates = 4000;
 
-Exploration impossible() { return {{.impossible = true}, {}}; }
+Exploration impossible() { return {{true, {}}, {}}; }
 
 std::optional<Cell> cell_of(const Json& json, const GridMap& map) {
   if (!json.is_array() || json.size() != 2 || !json[0].is_number_integer() || !json[1].is_number_integer()) {
@@ -104,16 +104,17 @@ Exploration explored(const Atlas& atlas, StartIndex demo) {
   const auto& domain = atlas.domain();
   const auto world = atlas.id(demo).mdp;
   auto robot = expected_path(atlas, demo);
-  view::Found found{.board = live_board(atlas, demo)};
+  view::Found found;
+  found.at<"board">() = live_board(atlas, demo);
   if (const auto contrast = trade(atlas, demo)) {
-    found.other = path_json(domain, world, contrast->alternative);
-    found.differs_at = contrast->decisive;
-    found.reason = sentence(reason(atlas, *contrast));
-    found.tie = dot(domain.weights().integer, contrast->robot_counts - contrast->alternative_counts) == 0;
+    found.at<"other">() = path_json(domain, world, contrast->alternative);
+    found.at<"differs_at">() = contrast->decisive;
+    found.at<"reason">() = sentence(reason(atlas, *contrast));
+    found.at<"tie">() = dot(domain.weights().integer, contrast->robot_counts - contrast->alternative_counts) == 0;
     robot = contrast->robot;
   }
-  found.path = path_json(domain, world, robot);
-  Exploration result{{.found = std::move(found)}, {}};
+  found.at<"path">() = path_json(domain, world, robot);
+  Exploration result{{false, std::move(found)}, {}};
   if (!atlas.is_candidate(demo)) return result;
   for (auto& half_space : atlas.constraints().half_spaces(atlas.one_step(demo))) {
     if (sign_of_dot(domain.weights().integer, half_space.normal()) > 0)

@@ -125,10 +125,12 @@ view::Judged judged_view(const RoomParts& room, const Test& test, bool right, co
   const auto& domain = atlas.domain();
   const auto [world, start] = atlas.id(test.demo);
   const auto& mdp = domain.mdp(world);
-  view::Judged judged{.board = live_board(room.study, test.demo), .right = right};
+  view::Judged judged;
+  judged.at<"board">() = live_board(room.study, test.demo);
+  judged.at<"right">() = right;
   // Of a right answer that the shortest path gives, too, nothing is said.
   if (!right || test.is_shortest_wrong) {
-    for (const auto& text : all_in_words(domain, test.covered)) judged.why.push_back(sentence(text));
+    for (const auto& text : all_in_words(domain, test.covered)) judged.at<"why">().push_back(sentence(text));
   }
 
   auto robot = expected_path(atlas, test.demo);
@@ -136,31 +138,33 @@ view::Judged judged_view(const RoomParts& room, const Test& test, bool right, co
   if (given) {
     auto mine = judged_path(atlas, test.demo, given->actions, given->for_ever).path;
     if (mdp.is_deterministic() && !is_exact(mdp)) between = choice_between(domain, world, robot, mine);
-    judged.differs_at = first_difference(mine, robot);
-    if (const auto at = judged.differs_at) {
+    const auto at = first_difference(mine, robot);
+    judged.at<"differs_at">() = at;
+    if (at) {
       const bool is_fork = *at < mine.actions.size() && *at < robot.actions.size();
       if (!right && is_fork && !mdp.is_deterministic()) {
-        judged.chance = {world_key(room.study, world), world_state(room.study, world, start).value_or(0),
-                         spared_by(domain, world, robot.states[*at], robot.actions[*at], mine.actions[*at])};
+        judged.at<"chance">() = {world_key(room.study, world), world_state(room.study, world, start).value_or(0),
+                                 spared_by(domain, world, robot.states[*at], robot.actions[*at], mine.actions[*at])};
       }
       // Both may go round in a cycle for a while before they part.
       mine = written_out(std::move(mine), *at + 1);
       robot = written_out(std::move(robot), *at + 1);
     }
     auto path = path_json(domain, world, mine);
-    judged.mine = path["frames"];
-    judged.mine_repeats_from = path.value("repeats_from", Json{});
-    judged.mine_repeats_text = path.value("repeats_text", Json{});
+    judged.at<"mine">() = path["frames"];
+    judged.at<"mine_repeats_from">() = path.value("repeats_from", Json{});
+    judged.at<"mine_repeats_text">() = path.value("repeats_text", Json{});
   }
   auto path = path_json(domain, world, robot);
-  judged.robot = path["frames"];
-  judged.robot_repeats_from = path.value("repeats_from", Json{});
-  judged.robot_repeats_text = path.value("repeats_text", Json{});
+  judged.at<"robot">() = path["frames"];
+  judged.at<"robot_repeats_from">() = path.value("repeats_from", Json{});
+  judged.at<"robot_repeats_text">() = path.value("repeats_text", Json{});
 
-  judged.unfinished = given && !given->is_finished;
+  judged.at<"unfinished">() = given && !given->is_finished;
   if (!right && given && given->counts) {
-    judged.cost = between.empty() ? cost_in_words(domain, world, atlas.feature_counts(test.demo), *given->counts)
-                                  : "The robot takes another path: " + between + ".";
+    judged.at<"cost">() = between.empty()
+                              ? cost_in_words(domain, world, atlas.feature_counts(test.demo), *given->counts)
+                              : "The robot takes another path: " + between + ".";
   }
   return judged;
 }
@@ -174,19 +178,21 @@ view::Feedback feedback_view(const RoomParts& room, const LiveSeat& seat) {
   for (std::size_t t = 0; t < past.lesson.tests.size(); ++t) {
     const bool right = t < verdicts.size() && verdicts[t].correct;
     const auto& given = t < seat.paths.size() ? seat.paths[t] : std::nullopt;
-    feedback.tests.push_back(judged_view(room, past.lesson.tests[t], right, given));
+    feedback.at<"tests">().push_back(judged_view(room, past.lesson.tests[t], right, given));
   }
 
-  feedback.all_right = past.feedback.all_right_in_the_end(*seat.member);
-  feedback.learned = past.feedback.component_learned;
-  // Somebody else answered otherwise: why the group goes on for those who were right.
+  const bool all_right = past.feedback.all_right_in_the_end(*seat.member);
+  const bool learned = past.feedback.component_learned;
+  bool others_unsure = false;  // somebody else answered otherwise: why the group goes on for those who were right
   const auto& all_correct = past.feedback.all_correct;
-  for (std::size_t m = 0; m < all_correct.size() && feedback.all_right && !feedback.learned; ++m) {
-    const bool is_unsure = m != *seat.member && !past.feedback.verdicts[m].empty() && !all_correct[m];
-    feedback.others_unsure = feedback.others_unsure || is_unsure;
+  for (std::size_t m = 0; m < all_correct.size(); ++m) {
+    others_unsure = others_unsure || (m != *seat.member && !past.feedback.verdicts[m].empty() && !all_correct[m]);
   }
+  feedback.at<"all_right">() = all_right;
+  feedback.at<"learned">() = learned;
+  feedback.at<"others_unsure">() = all_right && !learned && others_unsure;
   if (room.study.group().screens.brackets) {
-    feedback.brackets =
+    feedback.at<"brackets">() =
         known_brackets(room, seat, room.study.atlas->knowledge_components()[past.lesson.component].features);
   }
   return feedback;
@@ -202,10 +208,9 @@ view::Explore explore_view(const RoomParts& room, const LiveSeat& seat) {
   for (std::size_t k = 0; k < atlas.domain().num_features(); ++k) {
     if (k != reference) features.push_back(k);
   }
-  return {.first = explored(atlas, first).shown,
-          .put = can_change_map(room.study) ? placeable_symbols(atlas.domain()) : std::vector<std::string>{},
-          .brackets = known_brackets(room, seat, features),
-          .last = seat.exploration ? std::optional{*seat.exploration} : std::nullopt};
+  auto put = can_change_map(room.study) ? placeable_symbols(atlas.domain()) : std::vector<std::string>{};
+  return {explored(atlas, first).shown, std::move(put), known_brackets(room, seat, features),
+          seat.exploration ? std::optional{*seat.exploration} : std::nullopt};
 }
 
 }  // namespace kith

@@ -70,10 +70,16 @@ view::End end_of(const LiveStudy& study, const std::string& reason, const std::s
 // What is the same for everybody.
 view::Participant empty_page(const LiveStudy& study, std::string stage, std::int64_t now_us) {
   const auto& group = study.group();
-  view::Participant page{.stage = std::move(stage), .lang = study.language.code, .dir = study.language.direction};
-  page.study = {group.title, group.story, group.goal};
-  if (const auto& update = study.update) page.study.update = {update->text, update->now, update->still, update->news};
-  page.server_ms = in_ms(now_us);
+  view::Participant page;
+  page.at<"v">() = 1;
+  page.at<"stage">() = std::move(stage);
+  page.at<"lang">() = study.language.code;
+  page.at<"dir">() = study.language.direction;
+  page.at<"study">() = {group.title, group.story, group.goal, {}};
+  if (const auto& update = study.update) {
+    page.at<"study">().at<"update">() = {update->text, update->now, update->still, update->news};
+  }
+  page.at<"server_ms">() = in_ms(now_us);
   return page;
 }
 
@@ -85,12 +91,12 @@ class ParticipantPage {
   [[nodiscard]] view::Participant page() const {
     const auto stage = stage_of_seat(room_, seat_);
     auto page = empty_page(room_.study, stage, now_us_);
-    page.me = {number_ + 1, label()};
-    page.group = {size(), num_active()};
-    page.notices = notices();
+    page.at<"me">() = {number_ + 1, label()};
+    page.at<"group">() = {size(), num_active()};
+    page.at<"notices">() = notices();
     if (is_running(state_) && seat_.status != SeatStatus::kGone && seat_.member) {
-      page.pause = pause();
-      page.progress = progress();
+      page.at<"pause">() = pause();
+      page.at<"progress">() = progress();
     }
     add_stage(page);
     return page;
@@ -123,7 +129,7 @@ class ParticipantPage {
 
   // The group stands still for the facilitator, or for nobody but people who are away.
   [[nodiscard]] std::optional<view::Pause> pause() const {
-    if (state_.paused_us) return view::Pause{.why = "facilitator", .since_ms = in_ms(*state_.paused_us)};
+    if (state_.paused_us) return view::Pause{"facilitator", in_ms(*state_.paused_us), {}, 0};
     if (room_.study.group().dropout.policy == DropoutPolicy::kContinueNow) return {};
     std::size_t missing = 0;
     std::int64_t since = 0;
@@ -145,13 +151,10 @@ class ParticipantPage {
     const auto rounds = state_.session->periods();
     const bool between = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
     // While feedback is read the next lesson may be there already: it must not show.
-    return {.part = part(over, components.size()),
-            .round = rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u),
-            .most = state_.session->options().max_periods,
-            .parts = components.size(),
-            .done = components.empty()
-                        ? 0.0
-                        : static_cast<double>(shown_over(over)) / static_cast<double>(components.size())};
+    const double done =
+        components.empty() ? 0.0 : static_cast<double>(shown_over(over)) / static_cast<double>(components.size());
+    const auto round = rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u);
+    return {part(over, components.size()), round, state_.session->options().max_periods, components.size(), done};
   }
   // That of the lesson that is being taught. Feedback belongs to it, too, also if the part is finished now.
   [[nodiscard]] std::size_t part(std::ptrdiff_t over, std::size_t parts) const {
@@ -170,53 +173,55 @@ class ParticipantPage {
   }
 
   void add_stage(view::Participant& page) const {
-    const auto& stage = page.stage;
+    const auto& stage = page.at<"stage">();
     const auto& study = room_.study;
     if (stage == "consent") {
-      page.consent = {study.group().consent_version, study.group().consent_text, stored_json(study.group())};
+      page.at<"consent">() = {study.group().consent_version, study.group().consent_text, stored_json(study.group())};
     } else if (stage == "check") {
-      page.check = check();
+      page.at<"check">() = check();
     } else if (stage == "screening") {
-      page.predict = task(study.screening[seat_.screened.size()], seat_.screened.size(), study.screening.size(), {});
+      page.at<"predict">() =
+          task(study.screening[seat_.screened.size()], seat_.screened.size(), study.screening.size(), {});
     } else if (stage == kExamPage) {
-      page.predict = task(*seat_.examined, seat_.exam.size(), Examination::kMostBoards, {});
+      page.at<"predict">() = task(*seat_.examined, seat_.exam.size(), Examination::kMostBoards, {});
     } else if (stage == "lobby") {
-      page.lobby = lobby();
+      page.at<"lobby">() = lobby();
     } else if (stage == "wait") {
-      page.wait = wait();
+      page.at<"wait">() = wait();
     } else if (stage == "debrief") {
-      page.debrief = debrief();
+      page.at<"debrief">() = debrief();
     } else if (is_running(state_) && stage == rules_of(state_.phase).word) {
       add_phase(page);
     } else if (stage == "questions") {
-      page.questions = {questions()};
+      page.at<"questions">() = {questions()};
     } else {
-      page.end = end_of(study, seat_.why, end_text(seat_, state_.end_text), seat_.gets_code ? code() : "", seat_.query);
+      page.at<"end">() =
+          end_of(study, seat_.why, end_text(seat_, state_.end_text), seat_.gets_code ? code() : "", seat_.query);
     }
     const bool may_explore = stage == "feedback" || stage == "debrief";
     if (may_explore && study.group().screens.explore && can_explore(study.atlas->domain())) {
-      page.explore = explore_view(room_, seat_);
+      page.at<"explore">() = explore_view(room_, seat_);
     }
-    if (state_.deadline_us && stage == rules_of(state_.phase).word) page.limit_ms = in_ms(*state_.deadline_us);
+    if (state_.deadline_us && stage == rules_of(state_.phase).word) page.at<"limit_ms">() = in_ms(*state_.deadline_us);
   }
 
   // What there is to do for the group.
   void add_phase(view::Participant& page) const {
     switch (state_.phase) {
       case RoomPhase::kWatching:
-        page.watch = watch();
+        page.at<"watch">() = watch();
         return;
       case RoomPhase::kTesting: {
         const auto& tests = state_.session->lesson().tests;
         const auto test = current_test(seat_);
-        page.predict = task(tests[test].demo, test, tests.size(), seat_.draft);
+        page.at<"predict">() = task(tests[test].demo, test, tests.size(), seat_.draft);
         return;
       }
       case RoomPhase::kDiscussing:
-        page.discuss = discussion();
+        page.at<"discuss">() = discussion();
         return;
       case RoomPhase::kFeedback:
-        page.feedback = feedback_view(room_, seat_);
+        page.at<"feedback">() = feedback_view(room_, seat_);
         return;
       case RoomPhase::kLobby:  // there is nothing to do, or not for the group
       case RoomPhase::kTeaching:
@@ -237,12 +242,8 @@ class ParticipantPage {
 
   [[nodiscard]] view::Check check() const {
     const auto& study = room_.study;
-    return {.board = live_board(study, study.sandbox),
-            .world = world_of(study.sandbox),
-            .start = start_number(study.sandbox),
-            .parts = study.atlas->knowledge_components().size(),
-            .most = study.spec.teaching.max_periods,
-            .ask_name = study.group().ask_name};
+    return {live_board(study, study.sandbox),           world_of(study.sandbox),         start_number(study.sandbox),
+            study.atlas->knowledge_components().size(), study.spec.teaching.max_periods, study.group().ask_name};
   }
 
   [[nodiscard]] view::Task task(StartIndex demo, std::size_t index, std::size_t of,
@@ -268,14 +269,16 @@ class ParticipantPage {
   [[nodiscard]] view::Watch watch() const {
     const auto& demonstrations = state_.session->lesson().demonstrations;
     const auto demo = demonstrations[seat_.watched].demo;
-    view::Watch watch{.index = seat_.watched,
-                      .of = demonstrations.size(),
-                      .board = live_board(room_.study, demo),
-                      .path = robot_path(room_.study, demo),
-                      .runs = robot_runs(room_.study, demo)};
+    view::Watch watch{seat_.watched,
+                      demonstrations.size(),
+                      live_board(room_.study, demo),
+                      robot_path(room_.study, demo),
+                      {},
+                      {},
+                      robot_runs(room_.study, demo)};
     if (!room_.study.group().screens.predict_first) return watch;
-    watch.world = world_of(demo);
-    watch.state = start_number(demo);
+    watch.at<"world">() = world_of(demo);
+    watch.at<"state">() = start_number(demo);
     return watch;
   }
 
@@ -287,13 +290,14 @@ class ParticipantPage {
         }));
     auto lobby = lobby_of(std::min(waiting, size() - 1), size());
     const auto lobby_s = room_.study.group().time.lobby_s;
-    if (lobby_s > 0 && room_.study.group().auto_start) lobby.until_ms = in_ms(seat_.ready_us + lobby_s * kSecond);
+    if (lobby_s > 0 && room_.study.group().auto_start)
+      lobby.at<"until_ms">() = in_ms(seat_.ready_us + lobby_s * kSecond);
     return lobby;
   }
 
   [[nodiscard]] view::Lobby lobby_of(std::size_t present, std::size_t size) const {
     const auto leave_us = seat_.ready_us + room_.study.group().time.leave_after_s * kSecond;
-    return {.present = present, .size = size, .since_ms = in_ms(seat_.ready_us), .leave_after_ms = in_ms(leave_us)};
+    return {present, size, in_ms(seat_.ready_us), in_ms(leave_us), {}};
   }
 
   [[nodiscard]] view::Lobby lobby() const {
@@ -307,7 +311,7 @@ class ParticipantPage {
     auto lobby = lobby_of(static_cast<std::size_t>(present), state_.members.size());
     const auto lobby_s = room_.study.group().time.lobby_s;
     if (state_.phase == RoomPhase::kLobby && state_.lobby_us && lobby_s > 0 && room_.study.group().auto_start) {
-      lobby.until_ms = in_ms(*state_.lobby_us + lobby_s * kSecond);
+      lobby.at<"until_ms">() = in_ms(*state_.lobby_us + lobby_s * kSecond);
     }
     return lobby;
   }
@@ -338,13 +342,13 @@ class ParticipantPage {
 
   [[nodiscard]] view::Debrief debrief() const {
     auto robot = robot_in_words(room_);
-    return {.summary = std::move(robot.taught),
-            .not_reached = std::move(robot.not_reached),
-            .code = code(),
-            .rounds = num_periods(state_),
-            .right = seat_.right,
-            .tests = seat_.tests,
-            .redirect = redirect(room_.study, code(), seat_.query)};
+    return {std::move(robot.taught),
+            std::move(robot.not_reached),
+            code(),
+            num_periods(state_),
+            seat_.right,
+            seat_.tests,
+            redirect(room_.study, code(), seat_.query)};
   }
 
   const RoomParts& room_;
@@ -388,8 +392,8 @@ Json full_view(const LiveStudy& study, const std::string& code, const Json& quer
   LiveSeat nobody;
   nobody.last_page = "full";
   auto page = empty_page(study, "full", now_us);
-  page.me.label = "Learner";
-  page.end = end_of(study, "full", end_text(nobody, {}), study.group().completion.pay_full ? code : "", query);
+  page.at<"me">() = {0, "Learner"};
+  page.at<"end">() = end_of(study, "full", end_text(nobody, {}), study.group().completion.pay_full ? code : "", query);
   return written(page);
 }
 

@@ -6,6 +6,8 @@
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/examination.hpp"
 #include "kith/study/audit_people.hpp"
+#include "message_json.hpp"
+#include "views.hpp"
 
 namespace kith {
 namespace {
@@ -21,34 +23,31 @@ const LikelyMisconception* likeliest(const PersonAudit& audit) {
   return most;
 }
 
-Json person_json(const Atlas& atlas, const AuditedPerson& person) {
+view::KnownPerson known_person(const Atlas& atlas, const AuditedPerson& person) {
   const auto& audit = person.audit;
-  Json json{{"seat", person.seat},
-            {"member", person.member},
-            {"tests", audit.agreement.tests},
-            {"right", audit.agreement.right},
-            {"knows", *audit.knowledge()},
-            {"components", Json::array()}};
-  for (const auto& one : audit.components) {
-    json["components"].push_back(
-        {{"name", component_in_words(atlas, one.component)},
-         {"understanding", name_of(one.understanding)},
-         {"verdict", verdict_in_words(one)},
-         {"level", one.understanding == Understanding::kNotTaught ? Json{} : Json(one.level.mean)}});
-  }
+  view::KnownPerson known;
+  known.at<"seat">() = person.seat;
+  known.at<"member">() = person.member;
+  known.at<"tests">() = audit.agreement.tests;
+  known.at<"right">() = audit.agreement.right;
+  known.at<"knows">() = *audit.knowledge();
   std::size_t boards = 0;
-  for (const auto& one : audit.components) boards = std::max(boards, one.examined);
-  if (boards > 0) json["exam"] = name_of(exam_result(audit));
-  const auto need = person.simulated ? std::string{} : need_in_words(audit);
-  if (!need.empty()) json["needs_help"] = need;
-  if (const auto* misconception = likeliest(audit)) {
-    json["thinks"] = misconception->thinks;
-    json["probability"] = misconception->probability;
+  for (const auto& one : audit.components) {
+    const bool is_taught = one.understanding != Understanding::kNotTaught;
+    known.at<"components">().push_back({component_in_words(atlas, one.component),
+                                        std::string{name_of(one.understanding)}, verdict_in_words(one),
+                                        is_taught ? std::optional{one.level.mean} : std::nullopt});
+    boards = std::max(boards, one.examined);
   }
-  if (person.kinds.empty()) return json;
-  json["kind"] = kind_word(person.kinds);
-  for (const auto& [kind, probability] : person.kinds) json["kinds"][kind] = probability;
-  return json;
+  if (boards > 0) known.at<"exam">() = name_of(exam_result(audit));
+  if (!person.simulated) known.at<"needs_help">() = need_in_words(audit);
+  if (const auto* misconception = likeliest(audit)) {
+    known.at<"thinks">() = misconception->thinks;
+    known.at<"probability">() = misconception->probability;
+  }
+  if (!person.kinds.empty()) known.at<"kind">() = kind_word(person.kinds);
+  for (const auto& [kind, probability] : person.kinds) known.at<"kinds">()[kind] = probability;
+  return known;
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ std::vector<AuditedPerson> audit_room(TeachingCache& cache, const LiveStudy& stu
 Json people_json(const Atlas& atlas, const std::vector<AuditedPerson>& people) {
   Json list = Json::array();
   for (const auto& person : people) {
-    if (person.audit.knowledge()) list.push_back(person_json(atlas, person));
+    if (person.audit.knowledge()) list.push_back(written(known_person(atlas, person)));
   }
   return list;
 }

@@ -9,20 +9,21 @@
 #include "kith/explain/words.hpp"
 #include "kith/geometry/outline.hpp"
 #include "live_texts.hpp"
+#include "message_json.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"
 
 namespace kith {
 namespace {
 
-Json outline_json(const Cone& cone) {
-  Json corners = Json::array();
+std::vector<std::vector<double>> outline_of(const Cone& cone) {
+  std::vector<std::vector<double>> corners;
   for (const auto& corner : outline(cone)) corners.push_back({corner.x(), corner.y(), corner.z()});
   return corners;
 }
 
-Json plain_sentences(const Domain& domain, std::span<const HalfSpace> half_spaces) {
-  Json list = Json::array();
+std::vector<std::string> plain_sentences(const Domain& domain, std::span<const HalfSpace> half_spaces) {
+  std::vector<std::string> list;
   for (const auto& text : all_in_words(domain, half_spaces)) list.push_back(sentence(text));
   return list;
 }
@@ -32,31 +33,30 @@ class RoomDetailPage {
   explicit RoomDetailPage(const RoomParts& room)
       : room_{room}, state_{room.state}, atlas_{*room.study.atlas}, domain_{atlas_.domain()} {}
 
-  [[nodiscard]] Json json() const {
-    Json detail{{"id", room_.setup.id}, {"session", session()}};
-    if (const auto* lesson = current_lesson()) detail["lesson"] = lesson_json(*lesson);
-    detail["answers"] = answers();
-    detail["curves"] = curves();
-    detail["beliefs"] = beliefs();
-    detail["truth"] = truth();
-    detail["timers"] = timers();
+  [[nodiscard]] view::RoomDetail detail() const {
+    view::RoomDetail detail;
+    detail.at<"id">() = room_.setup.id;
+    detail.at<"session">() = session();
+    if (const auto* lesson = current_lesson()) detail.at<"lesson">() = lesson_view(*lesson);
+    detail.at<"answers">() = answers();
+    detail.at<"curves">() = curves();
+    for (auto& [name, points] : belief_points(room_))
+      detail.at<"beliefs">().push_back({std::move(name), std::move(points)});
+    detail.at<"truth">() = truth();
+    detail.at<"timers">() = timers();
     return detail;
   }
 
  private:
-  [[nodiscard]] Json session() const {
-    Json components = Json::array();
+  [[nodiscard]] view::SessionNow session() const {
+    view::SessionNow now{num_periods(state_), {}, {}, std::string{rules_of(state_.phase).word}};
     const auto all = components_of(state_);
     for (std::size_t i = 0; i < all.size(); ++i) {
       constexpr std::array kWords{"open", "learned", "skipped"};
-      components.push_back(
-          {{"name", component_in_words(atlas_, i)}, {"status", kWords[static_cast<std::size_t>(all[i])]}});
+      now.at<"components">().push_back({component_in_words(atlas_, i), kWords[static_cast<std::size_t>(all[i])]});
     }
-    const auto* lesson = current_lesson();
-    return {{"period", num_periods(state_)},
-            {"component", lesson != nullptr ? Json(lesson->component + 1) : Json{}},
-            {"components", components},
-            {"phase", rules_of(state_.phase).word}};
+    if (const auto* lesson = current_lesson()) now.at<"component">() = lesson->component + 1;
+    return now;
   }
 
   // The one that people see; while they read the feedback that of the period behind them.
@@ -86,95 +86,61 @@ class RoomDetailPage {
     return text;
   }
 
-  [[nodiscard]] Json lesson_json(const Lesson& lesson) const {
-    const auto shown = [&](StartIndex demo) {
-      Json entry{{"board", live_board(room_.study, demo)}};
-      entry.update(robot_path(room_.study, demo));
-      return entry;
+  [[nodiscard]] view::LessonNow lesson_view(const Lesson& lesson) const {
+    view::LessonNow now{lesson.source.rule, why(lesson), {}, {}, {}};
+    if (lesson.source.is_member()) now.at<"source">() = "member " + std::to_string(lesson.source.member + 1);
+    const auto shown = [&](StartIndex demo, std::optional<double> gain, std::span<const HalfSpace> half_spaces) {
+      return view::ShownBoard{live_board(room_.study, demo), robot_path(room_.study, demo), gain,
+                              plain_sentences(domain_, half_spaces)};
     };
-    Json demonstrations = Json::array(), tests = Json::array(), others = Json::array();
-    for (const auto& one : lesson.demonstrations) {
-      auto entry = shown(one.demo);
-      entry["gain"] = one.gain;
-      entry["sentences"] = plain_sentences(domain_, one.half_spaces);
-      demonstrations.push_back(std::move(entry));
-    }
-    for (const auto& test : lesson.tests) {
-      auto entry = shown(test.demo);
-      entry["sentences"] = plain_sentences(domain_, test.covered);
-      tests.push_back(std::move(entry));
-    }
+    for (const auto& one : lesson.demonstrations)
+      now.at<"demonstrations">().push_back(shown(one.demo, one.gain, one.half_spaces));
+    for (const auto& test : lesson.tests) now.at<"tests">().push_back(shown(test.demo, std::nullopt, test.covered));
     if (state_.runners_up && rules_of(state_.phase).has_open_lesson) {
       for (const auto& other : *state_.runners_up) {
-        others.push_back({{"board", live_board(room_.study, other.demo)},
-                          {"gain", other.gain},
-                          {"sentences", plain_sentences(domain_, other.half_spaces)}});
+        now.at<"runners_up">().push_back(
+            {live_board(room_.study, other.demo), other.gain, plain_sentences(domain_, other.half_spaces)});
       }
     }
-    const auto source =
-        lesson.source.is_member() ? "member " + std::to_string(lesson.source.member + 1) : lesson.source.rule;
-    return {{"source", source},
-            {"why", why(lesson)},
-            {"demonstrations", demonstrations},
-            {"tests", tests},
-            {"runners_up", others}};
+    return now;
   }
 
-  [[nodiscard]] Json answers() const {
-    Json list = Json::array();
+  [[nodiscard]] std::vector<view::GivenAnswer> answers() const {
+    std::vector<view::GivenAnswer> list;
     for (const auto& answer : state_.answers) {
-      list.push_back({{"seat", answer.seat + 1},
-                      {"period", answer.period},
-                      {"test", answer.test},
-                      {"right", answer.right},
-                      {"regret", in_file_units(domain_.weights(), answer.regret)},
-                      {"ms", answer.ms},
-                      {"stopped_short", answer.stopped_short}});
-      if (!answer.right_in_the_end) continue;
-      list.back()["changed"] = answer.changed;
-      list.back()["right_in_the_end"] = *answer.right_in_the_end;
+      const bool was_discussed = answer.right_in_the_end.has_value();
+      list.push_back({answer.seat + 1, answer.period, answer.test, answer.right,
+                      in_file_units(domain_.weights(), answer.regret), answer.ms, answer.stopped_short,
+                      was_discussed ? std::optional{answer.changed} : std::nullopt, answer.right_in_the_end});
     }
     return list;
   }
 
-  [[nodiscard]] Json curves() const {
-    Json list = Json::array();
+  [[nodiscard]] std::vector<view::CurvePoint> curves() const {
+    std::vector<view::CurvePoint> list;
     for (const auto& point : state_.curves) {
       Json p_bec = Json::object(), right = Json::object();
       for (const auto& [name, mass] : point.p_bec) p_bec[name] = mass;
       for (const auto& [seat, share] : point.right) right[std::to_string(seat + 1)] = share;
-      list.push_back({{"period", point.period}, {"p_bec", p_bec}, {"right", right}});
+      list.push_back({point.period, std::move(p_bec), std::move(right)});
     }
     return list;
   }
 
-  [[nodiscard]] Json beliefs() const {
-    Json list = Json::array();
-    for (auto& [name, points] : belief_points(room_)) {
-      list.push_back({{"name", std::move(name)}, {"points", std::move(points)}});
-    }
-    return list;
-  }
-
-  [[nodiscard]] Json truth() const {
-    Json truth{{"weights", Json::array()},
-               {"features", domain_.feature_names()},
-               {"bec", Json::array()},
-               {"prior", Json::array()}};
-    for (const double weight : domain_.weights().unit) truth["weights"].push_back(weight);
+  [[nodiscard]] view::Truth truth() const {
+    const auto& unit = domain_.weights().unit;
+    view::Truth truth{{unit.begin(), unit.end()}, domain_.feature_names(), {}, {}};
     if (domain_.num_features() != 3) return truth;
     Cone bec = atlas_.prior_cone();
-    if (bec.clip(atlas_.policy_bec_half_spaces())) truth["bec"] = outline_json(bec);
-    truth["prior"] = outline_json(atlas_.prior_cone());
+    if (bec.clip(atlas_.policy_bec_half_spaces())) truth.at<"bec">() = outline_of(bec);
+    truth.at<"prior">() = outline_of(atlas_.prior_cone());
     return truth;
   }
 
-  [[nodiscard]] Json timers() const {
-    Json list = Json::array();
+  [[nodiscard]] std::vector<view::Timer> timers() const {
+    std::vector<view::Timer> list;
     const auto add = [&](const char* name, std::int64_t since_us, const std::optional<std::int64_t>& until_us) {
-      Json timer{{"name", name}, {"since_ms", in_ms(since_us)}};
-      if (until_us) timer["until_ms"] = in_ms(*until_us);
-      list.push_back(std::move(timer));
+      list.push_back({name, in_ms(since_us), until_us ? std::optional{in_ms(*until_us)} : std::nullopt});
     };
     if (state_.phase == RoomPhase::kLobby) {
       const auto limit = room_.study.group().time.lobby_s;
@@ -199,6 +165,6 @@ class RoomDetailPage {
 
 }  // namespace
 
-Json detail_json(const RoomParts& room) { return RoomDetailPage{room}.json(); }
+Json detail_json(const RoomParts& room) { return written(RoomDetailPage{room}.detail()); }
 
 }  // namespace kith

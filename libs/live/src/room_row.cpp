@@ -3,6 +3,7 @@
 
 #include "kith/live/screening.hpp"
 #include "live_texts.hpp"
+#include "message_json.hpp"
 #include "room_view.hpp"
 #include "session_summary.hpp"
 
@@ -14,26 +15,25 @@ class RoomRowPage {
   RoomRowPage(const RoomParts& room, RoomStage stage, const Viewer& viewer)
       : room_{room}, state_{room.state}, stage_{stage}, is_facilitator_{viewer.role == Viewer::Role::kFacilitator} {}
 
-  [[nodiscard]] Json json() const {
-    Json seats = Json::array();
-    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
-      if (state_.seats[i].last_page != "moved") seats.push_back(seat_row(i));
-    }
+  [[nodiscard]] view::RoomRow row() const {
     const bool is_list = room_.setup.is_waiting_list;
-    Json row{{"id", room_.setup.id}};
-    if (is_facilitator_) row["code"] = room_.setup.code;
-    row["stage"] = stage_ == RoomStage::kRunning && state_.paused_us ? "paused" : name_of(stage_);
-    row["strategy"] = is_list ? "waiting list" : strategy_name(state_);
-    row["composition"] = room_.setup.composition;
-    if (is_list) row["waiting_list"] = true;
-    row["replicate"] = room_.setup.replicate;
-    row["seats"] = std::move(seats);
-    row["period"] = num_periods(state_) + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
-    row["component"] = component();
-    if (state_.started_us) row["started_ms"] = in_ms(*state_.started_us);
-    if (!state_.end_reason.empty()) row["ended"] = state_.end_reason;
-    if (auto ahead = forecast(); !ahead.is_null()) row["forecast"] = std::move(ahead);
-    if (state_.next_strategy) row["next_strategy"] = state_.next_strategy->name;
+    view::RoomRow row;
+    row.at<"id">() = room_.setup.id;
+    if (is_facilitator_) row.at<"code">() = room_.setup.code;
+    row.at<"stage">() = stage_ == RoomStage::kRunning && state_.paused_us ? "paused" : name_of(stage_);
+    row.at<"strategy">() = is_list ? "waiting list" : strategy_name(state_);
+    row.at<"composition">() = room_.setup.composition;
+    row.at<"waiting_list">() = is_list;
+    row.at<"replicate">() = room_.setup.replicate;
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      if (state_.seats[i].last_page != "moved") row.at<"seats">().push_back(seat_row(i));
+    }
+    row.at<"period">() = num_periods(state_) + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
+    row.at<"component">() = component();
+    if (state_.started_us) row.at<"started_ms">() = in_ms(*state_.started_us);
+    row.at<"ended">() = state_.end_reason;
+    row.at<"forecast">() = forecast();
+    if (state_.next_strategy) row.at<"next_strategy">() = state_.next_strategy->name;
     return row;
   }
 
@@ -46,37 +46,38 @@ class RoomRowPage {
     return std::min(index + 1, components.size());
   }
 
-  [[nodiscard]] Json seat_row(std::size_t i) const {
+  [[nodiscard]] view::SeatRow seat_row(std::size_t i) const {
     const auto& seat = state_.seats[i];
-    const char* presence = seat.is_here ? "here" : "away";
-    if (seat.status == SeatStatus::kGone) presence = "left";
-    if (seat.status == SeatStatus::kEmpty) presence = "empty";
     const auto* waits = room_.setup.is_waiting_list ? "Waiting" : "Reserve";
-    Json row{{"seat", i + 1}, {"label", seat.member ? member_label(*seat.member) : std::string{waits}}};
-    if (is_facilitator_ && !seat.name.empty()) row["name"] = seat.name;
-    row["kind"] = seat.is_person ? "person" : "simulated";
-    row["type"] = std::string{seat.type};
-    row["presence"] = presence;
-    row["status"] = status_of_seat(room_, seat);
-    row["dropped"] = seat.status == SeatStatus::kDropped;
-    row["since_ms"] = in_ms(seat.presence_us);
-    if (seat.member && *seat.member != i) row["member"] = *seat.member + 1;
-    row["stage"] = seat.is_person ? stage_of_seat(room_, seat) : std::string{"simulated"};
-    if (seat.is_person && seat.since_us > 0) row["stage_since_ms"] = in_ms(stage_since_us(seat));
-    if (!seat.why.empty()) row["why"] = seat.why;
+    view::SeatRow row;
+    row.at<"seat">() = i + 1;
+    row.at<"label">() = seat.member ? member_label(*seat.member) : std::string{waits};
+    if (is_facilitator_) row.at<"name">() = seat.name;
+    row.at<"kind">() = seat.is_person ? "person" : "simulated";
+    row.at<"type">() = seat.type;
+    row.at<"presence">() = seat.is_here ? "here" : "away";
+    if (seat.status == SeatStatus::kGone) row.at<"presence">() = "left";
+    if (seat.status == SeatStatus::kEmpty) row.at<"presence">() = "empty";
+    row.at<"status">() = status_of_seat(room_, seat);
+    row.at<"dropped">() = seat.status == SeatStatus::kDropped;
+    row.at<"since_ms">() = in_ms(seat.presence_us);
+    if (seat.member && *seat.member != i) row.at<"member">() = *seat.member + 1;
+    row.at<"stage">() = seat.is_person ? stage_of_seat(room_, seat) : std::string{"simulated"};
+    if (seat.is_person && seat.since_us > 0) row.at<"stage_since_ms">() = in_ms(stage_since_us(seat));
+    row.at<"why">() = seat.why;
     if (seat.tests > 0) {
-      row["right"] = seat.right;
-      row["tests"] = seat.tests;
+      row.at<"right">() = seat.right;
+      row.at<"tests">() = seat.tests;
     }
+
     if (!room_.study.screening.empty() && seat.screened.size() == room_.study.screening.size()) {
       const auto right = static_cast<std::size_t>(std::count(seat.screened.begin(), seat.screened.end(), true));
-      const double estimate = screening_estimate(right, seat.screened.size());
-      row["estimate"] = estimate;
-      row["estimate_is_high"] = has_high_estimate(room_, seat);
+      row.at<"estimate">() = screening_estimate(right, seat.screened.size());
+      row.at<"estimate_is_high">() = has_high_estimate(room_, seat);
     }
-    const bool has_code = seat.gets_code || (seat.is_person && stage_of_seat(room_, seat) == "debrief");
+    const bool has_code = seat.gets_code || (seat.is_person && row.at<"stage">() == "debrief");
     if (is_facilitator_ && has_code) {
-      row["code"] = completion_code(room_.study, room_.setup.salt, room_.setup.id, i + 1);
+      row.at<"code">() = completion_code(room_.study, room_.setup.salt, room_.setup.id, i + 1);
     }
     return row;
   }
@@ -88,7 +89,7 @@ class RoomRowPage {
   }
 
   // From imagined sessions at the pace of this one so far, where the study has them; else from its own periods.
-  [[nodiscard]] Json forecast() const {
+  [[nodiscard]] std::optional<view::Forecast> forecast() const {
     if (!is_running(state_) || state_.durations_us.empty()) return {};
     const auto& session = *state_.session;
     const auto imagined = room_.study.imagined.find({session.strategy().name, room_.setup.composition});
@@ -102,12 +103,11 @@ class RoomRowPage {
     const auto left =
         extrapolate_remaining(count(ComponentStatus::kOpen), count(ComponentStatus::kLearned), session.periods(),
                               session.options().max_periods - session.periods(), minutes);
-    return {{"periods", left.mean_periods()},
-            {"minutes_low", std::ceil(left.minutes_quantile(0.0))},
-            {"minutes_high", std::ceil(left.minutes_quantile(1.0))}};
+    return view::Forecast{
+        left.mean_periods(), std::ceil(left.minutes_quantile(0.0)), std::ceil(left.minutes_quantile(1.0)), {}};
   }
 
-  [[nodiscard]] Json forecast_from(const std::vector<PastSession>& sessions) const {
+  [[nodiscard]] view::Forecast forecast_from(const std::vector<PastSession>& sessions) const {
     const auto& session = *state_.session;
     const auto components = session.components();
     SessionPlace place;
@@ -121,10 +121,10 @@ class RoomRowPage {
     for (const auto us : state_.durations_us) took += in_minutes(us);
     const auto left = forecast_remaining(sessions, place).at_pace(assumed > 0.0 ? took / assumed : 1.0);
     constexpr double kLow = 0.1, kHigh = 0.9;
-    return {{"periods", left.mean_periods()},
-            {"minutes_low", std::ceil(left.minutes_quantile(kLow))},
-            {"minutes_high", std::ceil(left.minutes_quantile(kHigh))},
-            {"done_within", {left.done_within(1), left.done_within(2), left.done_within(3)}}};
+    return {left.mean_periods(),
+            std::ceil(left.minutes_quantile(kLow)),
+            std::ceil(left.minutes_quantile(kHigh)),
+            {left.done_within(1), left.done_within(2), left.done_within(3)}};
   }
 
   [[nodiscard]] static double in_minutes(std::int64_t us) {
@@ -140,7 +140,7 @@ class RoomRowPage {
 }  // namespace
 
 Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer) {
-  return RoomRowPage{room, stage, viewer}.json();
+  return written(RoomRowPage{room, stage, viewer}.row());
 }
 
 Json Room::row(const Viewer& viewer) const { return row_json({*study_, *setup_, *state_}, stage(), viewer); }

@@ -10,289 +10,172 @@
 
 namespace kith {
 
-/// What people see: structs whose members are those of the views in JSON, in order. The types of the pages,
-/// web/src/live/protocol.ts, are printed from them. JSON stands where another layer says what there is; the text behind
-/// it is its type in TypeScript.
+/// What people see: records whose fields are those of the views in JSON, in order. The types of the pages,
+/// web/src/live/protocol.ts and web/src/facilitator/room.ts, are printed from them. Where another layer says what JSON
+/// there is, its type in TypeScript stands behind it.
 namespace view {
 
+using Count = std::size_t;
+using Ms = std::int64_t;  // of a duration, or since 1970
+using Text = std::string;
+using Texts = std::vector<std::string>;
+template <typename T>
+using OrNull = std::optional<T>;
+
+template <Name kName>
+using Board = Field<kName, Json, "PlayBoard">;
+using ItsPath = Field<"", Json, "Path">;
+
 /// Something to drive: `world` is the key of its table of moves, `start` a state of that table.
-struct Task {
-  static constexpr std::string_view kType = "Task";
-  std::size_t index = 0, of = 0;
-  Json board{};
-  std::string world{};
-  std::size_t start = 0;
-  std::vector<std::size_t> draft{};
-  static constexpr auto kMembers =
-      members("index", &Task::index, "of", &Task::of, "board", &Task::board, As{"PlayBoard"}, "world", &Task::world,
-              "start", &Task::start, "draft", &Task::draft);
-};
+using Task = Record<"Task", Field<"index", Count>, Field<"of", Count>, Board<"board">, Field<"world", Text>,
+                    Field<"start", Count>, Field<"draft", std::vector<Count>>>;
 
 /// Where a move at the fork could lead: the start in its table of moves, and which costs the robot's move avoids.
-struct Chance {
-  std::string world{};
-  std::size_t state = 0;
-  std::vector<std::size_t> spared{};
-  static constexpr auto kMembers = members("world", &Chance::world, "state", &Chance::state, "spared", &Chance::spared);
-};
+using Chance = Record<"", Field<"world", Text>, Field<"state", Count>, Field<"spared", std::vector<Count>>>;
 
 /// A prediction beside the robot's path. `..._repeats_from` and `..._repeats_text` are those of a Path; `unfinished`:
 /// the prediction ends before the robot has finished.
-struct Judged {
-  static constexpr std::string_view kType = "Judged";
-  Json board{};
-  bool right = false;
-  Json mine{}, robot{};
-  std::optional<std::size_t> differs_at{};
-  std::vector<std::string> why{};
-  std::optional<Chance> chance{};
-  Json mine_repeats_from{}, mine_repeats_text{}, robot_repeats_from{}, robot_repeats_text{};
-  bool unfinished = false;
-  std::optional<std::string> cost{};
-  static constexpr auto kMembers =
-      members("board", &Judged::board, As{"PlayBoard"}, "right", &Judged::right, "mine", &Judged::mine,
-              As{"Frame[] | null"}, "robot", &Judged::robot, As{"Frame[]"}, "differs_at", &Judged::differs_at, "why",
-              &Judged::why, "chance?", &Judged::chance, "mine_repeats_from?", &Judged::mine_repeats_from, As{"number"},
-              "mine_repeats_text?", &Judged::mine_repeats_text, As{"string"}, "robot_repeats_from?",
-              &Judged::robot_repeats_from, As{"number"}, "robot_repeats_text?", &Judged::robot_repeats_text,
-              As{"string"}, "unfinished", &Judged::unfinished, "cost?", &Judged::cost);
-};
+using Judged = Record<"Judged", Board<"board">, Field<"right", bool>, Field<"mine", Json, "Frame[] | null">,
+                      Field<"robot", Json, "Frame[]">, Field<"differs_at", OrNull<Count>>, Field<"why", Texts>,
+                      Maybe<"chance", Chance>, IfSet<"mine_repeats_from", Json, "number">,
+                      IfSet<"mine_repeats_text", Json, "string">, IfSet<"robot_repeats_from", Json, "number">,
+                      IfSet<"robot_repeats_text", Json, "string">, Field<"unfinished", bool>, Maybe<"cost", Text>>;
 
 /// Where the robot goes from `board.start`, and the best path that trades something for something else; `tie`: that is
 /// worth the same to it.
-struct Found {
-  Json board{}, other{};
-  std::optional<std::size_t> differs_at{};
-  bool tie = false;
-  std::optional<std::string> reason{};
-  Json path{};
-  static constexpr auto kMembers =
-      members("board", &Found::board, As{"PlayBoard"}, "other", &Found::other, As{"Path | null"}, "differs_at",
-              &Found::differs_at, "tie", &Found::tie, "reason?", &Found::reason, "path", &Found::path, As{"Path"});
-};
-
+using Found = Record<"", Board<"board">, Field<"other", Json, "Path | null">, Field<"differs_at", OrNull<Count>>,
+                     Field<"tie", bool>, Maybe<"reason", Text>, Field<"path", Json, "Path">>;
 /// `impossible`: the robot cannot do its job there, or nobody can be there.
-struct Explored {
-  static constexpr std::string_view kType = "Explored";
-  bool impossible = false;
-  std::optional<Found> found{};
-  static constexpr auto kMembers = members("impossible?", &Explored::impossible, "", &Explored::found);
-};
+using Explored = Record<"Explored", IfSet<"impossible", bool>, Field<"", std::optional<Found>>>;
 
-struct Question {
-  static constexpr std::string_view kType = "Question";
-  std::string id{}, kind{}, text{};
-  std::vector<std::string> options{};
-  std::string low{}, high{};
-  bool required = false;
-  static constexpr auto kMembers =
-      members("id", &Question::id, "kind", &Question::kind, As{"'likert' | 'text' | 'choice'"}, "text", &Question::text,
-              "options?", &Question::options, "low?", &Question::low, "high?", &Question::high, "required",
-              &Question::required);
-};
+using Question =
+    Record<"Question", Field<"id", Text>, Field<"kind", Text, "'likert' | 'text' | 'choice'">, Field<"text", Text>,
+           IfSet<"options", Texts>, IfSet<"low", Text>, IfSet<"high", Text>, Field<"required", bool>>;
 
 /// Why the group stands still.
-struct Pause {
-  static constexpr std::string_view kType = "Pause";
-  std::string why{};
-  std::int64_t since_ms = 0;
-  std::optional<std::int64_t> until_ms{};
-  std::size_t missing = 0;
-  static constexpr auto kMembers = members("why", &Pause::why, As{"'someone-away' | 'facilitator'"}, "since_ms",
-                                           &Pause::since_ms, "until_ms?", &Pause::until_ms, "missing", &Pause::missing);
-};
+using Pause = Record<"Pause", Field<"why", Text, "'someone-away' | 'facilitator'">, Field<"since_ms", Ms>,
+                     Maybe<"until_ms", Ms>, Field<"missing", Count>>;
 
 /// What is new about a robot, and what is not, for those who know it as it was; `news`: all that is new.
-struct Update {
-  static constexpr std::string_view kType = "Update";
-  std::string text{};
-  std::vector<std::string> now{}, still{}, news{};
-  static constexpr auto kMembers =
-      members("text", &Update::text, "now", &Update::now, "still", &Update::still, "news", &Update::news);
-};
-
-struct Texts {
-  std::string title{};
-  std::vector<std::string> story{};
-  std::string goal{};
-  std::optional<Update> update{};
-  static constexpr auto kMembers =
-      members("title", &Texts::title, "story", &Texts::story, "goal", &Texts::goal, "update?", &Texts::update);
-};
-
-struct Me {
-  std::size_t seat = 0;
-  std::string label{};
-  static constexpr auto kMembers = members("seat", &Me::seat, "label", &Me::label);
-};
-
-struct Group {
-  std::size_t size = 0, active = 0;
-  static constexpr auto kMembers = members("size", &Group::size, "active", &Group::active);
-};
-
-struct Notice {
-  std::string text{};
-  std::int64_t at_ms = 0;
-  static constexpr auto kMembers = members("text", &Notice::text, "at_ms", &Notice::at_ms);
-};
-
-struct Progress {
-  std::size_t part = 0, round = 0, most = 0, parts = 0;
-  double done = 0.0;
-  static constexpr auto kMembers = members("part", &Progress::part, "round", &Progress::round, "most", &Progress::most,
-                                           "parts", &Progress::parts, "done", &Progress::done);
-};
-
-struct Consent {
-  std::string version{};
-  std::vector<std::string> paragraphs{};
-  Json stores{};
-  static constexpr auto kMembers = members("version", &Consent::version, "paragraphs", &Consent::paragraphs, "stores",
-                                           &Consent::stores, As{"Stores"});
-};
-
-struct Check {
-  Json board{};
-  std::string world{};
-  std::size_t start = 0, parts = 0, most = 0;
-  bool ask_name = false;
-  static constexpr auto kMembers =
-      members("board", &Check::board, As{"PlayBoard"}, "world", &Check::world, "start", &Check::start, "parts",
-              &Check::parts, "most", &Check::most, "ask_name", &Check::ask_name);
-};
-
+using Update = Record<"Update", Field<"text", Text>, Field<"now", Texts>, Field<"still", Texts>, Field<"news", Texts>>;
+using Study = Record<"", Field<"title", Text>, Field<"story", Texts>, Field<"goal", Text>, Maybe<"update", Update>>;
+using Me = Record<"", Field<"seat", Count>, Field<"label", Text>>;
+using Group = Record<"", Field<"size", Count>, Field<"active", Count>>;
+using Notice = Record<"", Field<"text", Text>, Field<"at_ms", Ms>>;
+using Progress = Record<"", Field<"part", Count>, Field<"round", Count>, Field<"most", Count>, Field<"parts", Count>,
+                        Field<"done", double>>;
+using Consent = Record<"", Field<"version", Text>, Field<"paragraphs", Texts>, Field<"stores", Json, "Stores">>;
+using Check = Record<"", Board<"board">, Field<"world", Text>, Field<"start", Count>, Field<"parts", Count>,
+                     Field<"most", Count>, Field<"ask_name", bool>>;
 /// `leave_after_ms`: from when on one may leave.
-struct Lobby {
-  std::size_t present = 0, size = 0;
-  std::int64_t since_ms = 0, leave_after_ms = 0;
-  std::optional<std::int64_t> until_ms{};
-  static constexpr auto kMembers =
-      members("present", &Lobby::present, "size", &Lobby::size, "since_ms", &Lobby::since_ms, "leave_after_ms",
-              &Lobby::leave_after_ms, "until_ms?", &Lobby::until_ms);
-};
-
+using Lobby = Record<"", Field<"present", Count>, Field<"size", Count>, Field<"since_ms", Ms>,
+                     Field<"leave_after_ms", Ms>, Maybe<"until_ms", Ms>>;
 /// A demonstration; `world` and `state` are its table of moves and the start in it, if people sketch the path first.
-struct Watch {
-  std::size_t index = 0, of = 0;
-  Json board{}, path{};
-  std::optional<std::string> world{};
-  std::optional<std::size_t> state{};
-  Json runs{};
-  static constexpr auto kMembers =
-      members("index", &Watch::index, "of", &Watch::of, "board", &Watch::board, As{"PlayBoard"}, "", &Watch::path,
-              As{"Path"}, "world?", &Watch::world, "state?", &Watch::state, "runs?", &Watch::runs, As{"Runs"});
-};
-
-/// What one or several predicted; `n`: how many.
-struct Prediction {
-  Json path{};
-  bool own = false;
-  std::size_t n = 0;
-  static constexpr auto kMembers =
-      members("", &Prediction::path, As{"Path"}, "own", &Prediction::own, "n", &Prediction::n);
-};
-
-/// What the group predicted for a test, every path once, without names.
-struct Discussion {
-  std::size_t index = 0, of = 0;
-  Json board{};
-  std::vector<Prediction> predictions{};
-  static constexpr auto kMembers =
-      members("index", &Discussion::index, "of", &Discussion::of, "board", &Discussion::board, As{"PlayBoard"},
-              "predictions", &Discussion::predictions);
-};
-
-struct Wait {
-  std::string what{};
-  std::size_t missing = 0;
-  std::int64_t since_ms = 0;
-  static constexpr auto kMembers =
-      members("for", &Wait::what,
-              As{"'answers' | 'others-watching' | 'discussion' | 'teacher' | 'feedback' | 'joining' | 'rejoining'"},
-              "missing", &Wait::missing, "since_ms", &Wait::since_ms);
-};
-
+using Watch = Record<"", Field<"index", Count>, Field<"of", Count>, Board<"board">, ItsPath, Maybe<"world", Text>,
+                     Maybe<"state", Count>, IfSet<"runs", Json, "Runs">>;
+/// What the group predicted for a test, every path once, without names; `n`: how many predicted it.
+using Prediction = Record<"", ItsPath, Field<"own", bool>, Field<"n", Count>>;
+using Discussion = Record<"", Field<"index", Count>, Field<"of", Count>, Board<"board">,
+                          Field<"predictions", std::vector<Prediction>>>;
+using Wait =
+    Record<"",
+           Field<"for", Text,
+                 "'answers' | 'others-watching' | 'discussion' | 'teacher' | 'feedback' | 'joining' | 'rejoining'">,
+           Field<"missing", Count>, Field<"since_ms", Ms>>;
 /// `others_unsure`: somebody else was not right, which is why the group goes on.
-struct Feedback {
-  std::vector<Judged> tests{};
-  bool all_right = false, learned = false, others_unsure = false;
-  Json brackets{};
-  static constexpr auto kMembers =
-      members("tests", &Feedback::tests, "all_right", &Feedback::all_right, "learned", &Feedback::learned,
-              "others_unsure", &Feedback::others_unsure, "brackets?", &Feedback::brackets, As{"Bracket[]"});
-};
-
+using Feedback = Record<"", Field<"tests", std::vector<Judged>>, Field<"all_right", bool>, Field<"learned", bool>,
+                        Field<"others_unsure", bool>, IfSet<"brackets", Json, "Bracket[]">>;
 /// Where the study lets people change the world: `put` are symbols that may stand anywhere on the map.
-struct Explore {
-  Explored first{};
-  std::vector<std::string> put{};
-  Json brackets{};
-  std::optional<Explored> last{};
-  static constexpr auto kMembers = members("first", &Explore::first, "put", &Explore::put, "brackets",
-                                           &Explore::brackets, As{"Bracket[]"}, "last?", &Explore::last);
-};
-
-struct Questions {
-  std::vector<Question> items{};
-  static constexpr auto kMembers = members("items", &Questions::items);
-};
-
+using Explore = Record<"", Field<"first", Explored>, Field<"put", Texts>, Field<"brackets", Json, "Bracket[]">,
+                       Maybe<"last", Explored>>;
+using Questions = Record<"", Field<"items", std::vector<Question>>>;
 /// What the robot is like: of the parts that the group had lessons about, and of the others.
-struct Debrief {
-  std::vector<std::string> summary{}, not_reached{};
-  std::string code{};
-  std::size_t rounds = 0, right = 0, tests = 0;
-  std::string redirect{};
-  static constexpr auto kMembers =
-      members("summary", &Debrief::summary, "not_reached", &Debrief::not_reached, "code", &Debrief::code, "rounds",
-              &Debrief::rounds, "right", &Debrief::right, "tests", &Debrief::tests, "redirect?", &Debrief::redirect);
-};
+using Debrief = Record<"", Field<"summary", Texts>, Field<"not_reached", Texts>, Field<"code", Text>,
+                       Field<"rounds", Count>, Field<"right", Count>, Field<"tests", Count>, IfSet<"redirect", Text>>;
+using End = Record<"", Field<"reason", Text>, Field<"text", Text>, IfSet<"code", Text>, IfSet<"redirect", Text>>;
 
-struct End {
-  std::string reason{}, text{}, code{}, redirect{};
-  static constexpr auto kMembers =
-      members("reason", &End::reason, "text", &End::text, "code?", &End::code, "redirect?", &End::redirect);
-};
-
-/// What a participant sees. At most one of the members named after stages is set; `predict` is also that of the stages
+/// What a participant sees. At most one of the fields named after stages is set; `predict` is also that of the stages
 /// screening and exam, where `of` is how many there are at most. `limit_ms`: when a time limit ends the stage.
-struct Participant {
-  static constexpr std::string_view kType = "ParticipantView";
-  std::size_t v = 1;
-  std::string stage{}, lang{}, dir{};
-  Texts study{};
-  Me me{};
-  Group group{};
-  std::vector<Notice> notices{};
-  std::optional<Pause> pause{};
-  std::optional<Progress> progress{};
-  std::optional<Consent> consent{};
-  std::optional<Check> check{};
-  std::optional<Lobby> lobby{};
-  std::optional<Watch> watch{};
-  std::optional<Task> predict{};
-  std::optional<Discussion> discuss{};
-  std::optional<Wait> wait{};
-  std::optional<Feedback> feedback{};
-  std::optional<Questions> questions{};
-  std::optional<Debrief> debrief{};
-  std::optional<End> end{};
-  std::optional<Explore> explore{};
-  std::optional<std::int64_t> limit_ms{};
-  std::int64_t server_ms = 0;
-  static constexpr auto kMembers = members(
-      "v", &Participant::v, "stage", &Participant::stage,
-      As{"'consent' | 'check' | 'screening' | 'lobby' | 'watch' | 'predict' | 'discuss' | 'wait' | 'feedback' | 'exam' "
-         "| 'questions' | 'debrief' | 'declined' | 'full' | 'ended' | 'replaced'"},
-      "lang", &Participant::lang, "dir", &Participant::dir, As{"'ltr' | 'rtl'"}, "study", &Participant::study, "me",
-      &Participant::me, "group", &Participant::group, "notices", &Participant::notices, "pause?", &Participant::pause,
-      "progress?", &Participant::progress, "consent?", &Participant::consent, "check?", &Participant::check, "lobby?",
-      &Participant::lobby, "watch?", &Participant::watch, "predict?", &Participant::predict, "discuss?",
-      &Participant::discuss, "wait?", &Participant::wait, "feedback?", &Participant::feedback, "questions?",
-      &Participant::questions, "debrief?", &Participant::debrief, "end?", &Participant::end, "explore?",
-      &Participant::explore, "limit_ms?", &Participant::limit_ms, "server_ms", &Participant::server_ms);
-};
+using Participant = Record<
+    "ParticipantView", Field<"v", Count>,
+    Field<
+        "stage", Text,
+        "'consent' | 'check' | 'screening' | 'lobby' | 'watch' | 'predict' | 'discuss' | 'wait' | 'feedback' | 'exam' "
+        "| 'questions' | 'debrief' | 'declined' | 'full' | 'ended' | 'replaced'">,
+    Field<"lang", Text>, Field<"dir", Text, "'ltr' | 'rtl'">, Field<"study", Study>, Field<"me", Me>,
+    Field<"group", Group>, Field<"notices", std::vector<Notice>>, Maybe<"pause", Pause>, Maybe<"progress", Progress>,
+    Maybe<"consent", Consent>, Maybe<"check", Check>, Maybe<"lobby", Lobby>, Maybe<"watch", Watch>,
+    Maybe<"predict", Task>, Maybe<"discuss", Discussion>, Maybe<"wait", Wait>, Maybe<"feedback", Feedback>,
+    Maybe<"questions", Questions>, Maybe<"debrief", Debrief>, Maybe<"end", End>, Maybe<"explore", Explore>,
+    Maybe<"limit_ms", Ms>, Field<"server_ms", Ms>>;
+
+// --- what facilitators and observers see; observers get no names and codes ------------------------------------------
+
+/// A seat of a room. `since_ms` is that of the presence, 0: nobody has come yet; `member` of the session, from 1, where
+/// it is not the seat; `dropped`: the group goes on without them. The service adds what a room does not know:
+/// `latency_ms`, `link` and why somebody `needs_help`.
+using SeatRow = Record<
+    "SeatRow", Field<"seat", Count>, Field<"label", Text>, IfSet<"name", Text>,
+    Field<"kind", Text, "'person' | 'simulated'">, Field<"type", Text>,
+    Field<"presence", Text, "'here' | 'away' | 'left' | 'empty'">,
+    Field<"status", Text,
+          "'empty' | 'active' | 'finished' | 'left' | 'dropped' | 'replaced' | 'withdrawn' | 'ended' | 'declined' "
+          "| 'full' | 'moved' | 'simulated'">,
+    Field<"dropped", bool>, Field<"since_ms", Ms>, Maybe<"member", Count>, Field<"stage", Text>,
+    Maybe<"stage_since_ms", Ms>, IfSet<"why", Text>, Maybe<"right", Count>, Maybe<"tests", Count>,
+    Maybe<"estimate", double>, Maybe<"estimate_is_high", bool>, IfSet<"code", Text>, Maybe<"latency_ms", double>,
+    IfSet<"link", Text>, IfSet<"needs_help", Text>>;
+
+/// What is still to come; `done_within`: the probability that everything is learned after 1, 2, 3 more periods.
+using Forecast = Record<"Forecast", Field<"periods", double>, Field<"minutes_low", double>,
+                        Field<"minutes_high", double>, IfSet<"done_within", std::vector<double>>>;
+
+using RoomRow =
+    Record<"RoomRow", Field<"id", Text>, Maybe<"code", Text>,
+           Field<"stage", Text, "'lobby' | 'running' | 'paused' | 'questions' | 'ended'">, Field<"strategy", Text>,
+           Field<"composition", Text>, IfSet<"waiting_list", bool>, Field<"replicate", Count>,
+           Field<"seats", std::vector<SeatRow>>, Field<"period", Count>, Field<"component", Count>,
+           Maybe<"started_ms", Ms>, IfSet<"ended", Text>, Maybe<"forecast", Forecast>, Maybe<"next_strategy", Text>>;
+
+using ComponentState = Record<"", Field<"name", Text>, Field<"status", Text, "'open' | 'learned' | 'skipped'">>;
+using SessionNow = Record<"", Field<"period", Count>, Field<"component", OrNull<Count>>,
+                          Field<"components", std::vector<ComponentState>>, Field<"phase", Text>>;
+/// A demonstration, with its `gain`, or a test.
+using ShownBoard = Record<"ShownBoard", Board<"board">, ItsPath, Maybe<"gain", double>, Field<"sentences", Texts>>;
+/// What else the teacher could have shown.
+using OtherBoard = Record<"RunnerUp", Board<"board">, Field<"gain", double>, Field<"sentences", Texts>>;
+using LessonNow =
+    Record<"LessonNow", Field<"source", Text>, Field<"why", Text>, Field<"demonstrations", std::vector<ShownBoard>>,
+           Field<"tests", std::vector<ShownBoard>>, Field<"runners_up", std::vector<OtherBoard>>>;
+/// `changed`: where groups talk, whether another prediction was taken instead.
+using GivenAnswer = Record<"Answer", Field<"seat", Count>, Field<"period", Count>, Field<"test", Count>,
+                           Field<"right", bool>, Field<"regret", double>, Field<"ms", Ms>, Field<"stopped_short", bool>,
+                           Maybe<"changed", bool>, Maybe<"right_in_the_end", bool>>;
+using CurvePoint = Record<"", Field<"period", Count>, Field<"p_bec", Json, "Record<string, number>">,
+                          Field<"right", Json, "Record<string, number>">>;
+using Belief = Record<"Belief", Field<"name", Text>, Field<"points", Text>>;
+using Corners = std::vector<std::vector<double>>;
+using Truth = Record<"Truth", Field<"weights", std::vector<double>>, Field<"features", Texts>, Field<"bec", Corners>,
+                     Field<"prior", Corners>>;
+using Timer = Record<"Timer", Field<"name", Text>, Field<"since_ms", Ms>, Maybe<"until_ms", Ms>>;
+
+using KnownComponent = Record<"", Field<"name", Text>, Field<"understanding", Text>, Field<"verdict", Text>,
+                              Field<"level", OrNull<double>>>;
+/// Who understands what, by a person's answers so far. `exam`: what it came to, once it has begun; `knows`: how often
+/// they are expected to get all of a component right; `thinks`: the misconception that is most probable; `kind`: of
+/// learner.
+using KnownPerson =
+    Record<"PersonAudit", Field<"seat", Count>, Field<"member", Count>, Field<"tests", Count>, Field<"right", Count>,
+           Field<"knows", double>, Field<"components", std::vector<KnownComponent>>,
+           Maybe<"exam", Text, "'understands' | 'does-not-understand' | 'cannot-tell'">, IfSet<"needs_help", Text>,
+           Maybe<"thinks", Text>, Maybe<"probability", double>, Maybe<"kind", Text>,
+           IfSet<"kinds", Json, "Record<string, number>">>;
+
+/// The service adds `people`.
+using RoomDetail = Record<"RoomDetail", Field<"id", Text>, Field<"session", SessionNow>, Maybe<"lesson", LessonNow>,
+                          Field<"answers", std::vector<GivenAnswer>>, Field<"curves", std::vector<CurvePoint>>,
+                          Field<"beliefs", std::vector<Belief>>, Field<"truth", Truth>,
+                          Field<"timers", std::vector<Timer>>, IfSet<"people", std::vector<KnownPerson>>>;
 
 }  // namespace view
 }  // namespace kith

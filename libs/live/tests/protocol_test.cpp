@@ -50,9 +50,12 @@ export interface Message<T extends CommandType = CommandType> {
   expect_printed("live/protocol.ts", print.text());
 }
 
-TEST(Protocol, OfFacilitatorsHasTheCommandsOfRooms) {
+TEST(Protocol, OfFacilitatorsHasTheRoomsAndTheirCommands) {
   TypeScript print;
   print.add(kPrinted);
+  print.add("import type { Path, PlayBoard } from '../shared/board/types';\n\n");
+  print.type_of<view::RoomRow>();
+  print.type_of<view::RoomDetail>();
   print.add_commands<RoomSender::kFacilitator>("RoomCommands");
   expect_printed("facilitator/room.ts", print.text());
 }

@@ -23,10 +23,8 @@ class TypeScript {
       return "number";
     } else if constexpr (std::is_same_v<T, std::string>) {
       return "string";
-    } else if constexpr (requires { T::kType; }) {
-      return named<T>();
     } else if constexpr (HasMembers<T>) {
-      return "{ " + joined<T>("; ") + " }" + spread<T>();
+      return T::kType.empty() ? "{ " + joined<T>("; ") + " }" + spread<T>() : named<T>();
     } else {
       return element_of(static_cast<const T*>(nullptr));
     }

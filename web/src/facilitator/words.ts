@@ -1,6 +1,6 @@
 // Names of what the page shows, and what its terms mean.
 import type { Stage } from '../live/protocol';
-import type { Estimate, Presence, RoomRow, RoomStage, SeatRow, Sentence, StudyInfo } from './protocol';
+import type { Presence, RoomRow, RoomStage, SeatRow, StudyInfo } from './protocol';
 
 export const kStages: Record<RoomStage, string> = {
   lobby: 'Lobby',
@@ -141,17 +141,9 @@ export const typeLabel = (study: StudyInfo, letter: string | undefined): string 
   return study.types.find((type) => type.letter === letter)?.label ?? letter;
 };
 
-export const sentenceText = (sentence: Sentence): string => (typeof sentence === 'string' ? sentence : sentence.text);
-
 export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-export function estimateText(estimate: Estimate | undefined): string {
-  if (estimate === undefined) return '';
-  if (typeof estimate === 'number') return estimate.toFixed(2);
-  const { value, low, high } = estimate;
-  const range = low !== undefined && high !== undefined ? ` (${low.toFixed(2)} to ${high.toFixed(2)})` : '';
-  return `${value.toFixed(2)}${range}`;
-}
+export const estimateText = (estimate: number | undefined): string => estimate?.toFixed(2) ?? '';
 
 export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
 

@@ -6,14 +6,14 @@ import { BoardView as BoardDrawing } from '../../shared/board/board';
 import { Patterns } from '../../shared/board/glyphs';
 import { closedAt, played } from '../../shared/board/repeats';
 import { Legend } from '../../shared/board/legend';
-import { worldText, type MapDomain } from '../../shared/board/types';
+import { worldText, type MapDomain, type PlayBoard } from '../../shared/board/types';
 import { boardText, playedText } from '../../shared/play/words';
 import { useCalm, usePlayback } from '../../shared/playback';
-import type { BoardView, LessonNow, RunnerUp, ShownBoard } from '../protocol';
+import type { LessonNow, RunnerUp, ShownBoard } from '../protocol';
 import { Explained } from '../tip';
-import { sentenceText, upperFirst } from '../words';
+import { upperFirst } from '../words';
 
-function useDrawing(board: BoardView): { domain: MapDomain; legend: Legend } {
+function useDrawing(board: PlayBoard): { domain: MapDomain; legend: Legend } {
   const key = JSON.stringify(board.domain);
   return useMemo(() => ({ domain: board.domain, legend: new Legend(board.domain) }), [key]);
 }
@@ -113,7 +113,7 @@ function Shown({ choice, isDeep }: { choice: Choice; isDeep: boolean }): JSX.Ele
         <p class="list-title">{isTest ? 'It tests that' : 'It shows that'}</p>
         <ul class="sentences">
           {shown.sentences.map((sentence) => (
-            <li>{sentenceText(sentence)}</li>
+            <li>{sentence}</li>
           ))}
         </ul>
       </div>
@@ -142,7 +142,7 @@ function RunnersUp({ lesson }: { lesson: LessonNow }): JSX.Element | null {
 function Runner({ runner, most, chosen }: { runner: RunnerUp; most: number; chosen: number }): JSX.Element {
   const { domain, legend } = useDrawing(runner.board);
   const board = { ...runner.board, frames: [runner.board.start] };
-  const says = runner.sentences.map(sentenceText).join('; ');
+  const says = runner.sentences.join('; ');
   return (
     <li
       tabIndex={0}

@@ -18,7 +18,7 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
       </h3>
       <ol class="components">
         {components.map(({ name, status }, i) => {
-          const isNow = room.stage !== 'ended' && status === 'open' && (component === name || component === i + 1);
+          const isNow = room.stage !== 'ended' && status === 'open' && component === i + 1;
           return (
             <li class={`${status}${isNow ? ' now' : ''}`} aria-current={isNow ? 'step' : undefined}>
               <svg width="12" height="12" viewBox="-6 -6 12 12" aria-hidden="true">

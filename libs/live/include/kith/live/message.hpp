@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -29,11 +30,6 @@ struct Limits {
   std::string_view type{};                                        ///< Of JSON, in TypeScript.
 };
 
-/// The type of JSON in TypeScript, where nothing else is said of it.
-struct As {
-  std::string_view type;
-};
-
 /// A member of an event or of a view by its name in JSON. Without a name, its own members stand in its place.
 template <typename Owner, typename T>
 struct Member {
@@ -44,27 +40,21 @@ struct Member {
   std::optional<Limits> asked{};  ///< What commands may say of it; nothing: it is not asked for.
 };
 
-/// A tuple of members: of each its name, with '?' if it is left out unless it is set, a pointer to it and, if need be,
-/// an As or its Limits.
+/// A tuple of members: of each its name, with '?' if it is left out unless it is set, a pointer to it and, if it is
+/// asked for, its limits.
 constexpr std::tuple<> members() { return {}; }
 template <typename Owner, typename T, typename... Rest>
 constexpr auto members(std::string_view name, T Owner::*at, const Rest&... rest) {
   const auto end = name.find('?');
   const Member<Owner, T> member{name.substr(0, end), end != std::string_view::npos, at};
-  if constexpr (sizeof...(Rest) > 0) {
-    return [&]<typename Next>(const Next& next, const auto&... others) {
-      auto with = member;
-      if constexpr (std::is_same_v<Next, Limits>) with.asked = next, with.type = next.type;
-      if constexpr (std::is_same_v<Next, As>) with.type = next.type;
-      if constexpr (std::is_same_v<Next, Limits> || std::is_same_v<Next, As>) {
-        return std::tuple_cat(std::tuple{with}, members(others...));
-      } else {
-        return std::tuple_cat(std::tuple{with}, members(next, others...));
-      }
-    }(rest...);
-  } else {
-    return std::tuple{member};
-  }
+  return std::tuple_cat(std::tuple{member}, members(rest...));
+}
+template <typename Owner, typename T, typename... Rest>
+constexpr auto members(std::string_view name, T Owner::*at, const Limits& limits, const Rest&... rest) {
+  auto first = members(name, at);
+  std::get<0>(first).type = limits.type;
+  std::get<0>(first).asked = limits;
+  return std::tuple_cat(first, members(rest...));
 }
 
 /// Calls visit(member, value) for every member of an event or view.
@@ -73,5 +63,52 @@ constexpr void for_each_member(Owner& owner, Visit visit) {
   std::apply([&](const auto&... member) { (visit(member, owner.*member.at), ...); },
              std::remove_cvref_t<Owner>::kMembers);
 }
+
+/// A text as an argument of a template.
+template <std::size_t kSize>
+struct Name {
+  constexpr Name(const char (&text)[kSize]) { std::copy_n(text, kSize, chars); }  // NOLINT(google-explicit-constructor)
+  [[nodiscard]] constexpr std::string_view view() const { return {chars, kSize - 1}; }
+  char chars[kSize]{};
+};
+
+/// A field of a record, with its type in TypeScript where that is not T's.
+template <Name kName, typename T, Name kType = "", bool kMayMiss = false>
+struct Field {
+  using Value = T;
+  T value{};
+  template <typename Owner>
+  static constexpr Member<Owner, T> member_of() {
+    return {kName.view(), kMayMiss, &Field::value, kType.view()};
+  }
+};
+/// Left out unless it is set.
+template <Name kName, typename T, Name kType = "">
+using IfSet = Field<kName, T, kType, true>;
+template <Name kName, typename T, Name kType = "">
+using Maybe = Field<kName, std::optional<T>, kType, true>;
+
+/// What is shown, made of fields: record.at<"name">(). Its name is that of the interface in TypeScript; without one it
+/// is written out where it is used.
+template <Name kName, typename... Fields>
+struct Record : Fields... {
+  Record() = default;
+  Record(typename Fields::Value... values)  // NOLINT(google-explicit-constructor): {1, "text"} is a record
+      : Fields{std::move(values)}... {}
+
+  template <Name kField>
+  [[nodiscard]] auto& at() {
+    return value_of<kField>(*this);
+  }
+
+  static constexpr std::string_view kType = kName.view();
+  static constexpr auto kMembers = std::tuple{Fields::template member_of<Record>()...};
+
+ private:
+  template <Name kField, typename T, Name kAs, bool kMayMiss>
+  static T& value_of(Field<kField, T, kAs, kMayMiss>& field) {
+    return field.value;
+  }
+};
 
 }  // namespace kith
