@@ -29,7 +29,6 @@
 #include "kith/service/live_service.hpp"
 #include "kith/service/server.hpp"
 #include "kith/store/session_study.hpp"
-#include "local_facilitator.hpp"
 #include "serve_address.hpp"
 #include "serve_rehearsal.hpp"
 #include "web_assets.hpp"
@@ -175,36 +174,6 @@ struct Links {
   std::vector<std::string> seats{};  // of the demonstration
 };
 
-Links links_of(const std::string& base, const LiveService::StartLinks& tokens, LocalFacilitator& facilitator) {
-  const auto view = facilitator.view([](const Json& now) { return now.contains("links"); });
-  Links links{.facilitator = base + "/f#t=" + tokens.facilitator,
-              .observer = base + "/f#t=" + tokens.observer,
-              .join = view["links"].value("join", ""),
-              .code = view["links"].value("code", "")};
-  if (links.code.empty() && links.join.find("code=") != std::string::npos) {
-    links.code = links.join.substr(links.join.find("code=") + 5);
-  }
-  return links;
-}
-
-std::vector<std::string> persons(std::size_t n) { return std::vector<std::string>(n, "person"); }
-
-// Those of the latest room. Rooms are shown a moment after they are made, and their links with them.
-std::vector<std::string> links_of_seats(LocalFacilitator& facilitator) {
-  const auto seats_of = [](const Json& view) {
-    const auto rooms = view.value("rooms", Json::array());
-    return rooms.empty() ? Json::array() : rooms.back().value("seats", Json::array());
-  };
-  const auto has_links = [&](const Json& view) {
-    const auto seats = seats_of(view);
-    return !seats.empty() &&
-           std::all_of(seats.begin(), seats.end(), [](const Json& seat) { return seat.contains("link"); });
-  };
-  std::vector<std::string> links;
-  for (const auto& seat : seats_of(facilitator.view(has_links))) links.push_back(seat.value("link", ""));
-  return links;
-}
-
 void print_links(const Links& links, const fs::path& folder, std::uint16_t port, Console& console) {
   if (console.json()) {
     Json document{{"schema", "kith.serve/1"},
@@ -221,7 +190,7 @@ void print_links(const Links& links, const fs::path& folder, std::uint16_t port,
   std::string text = "facilitator  " + links.facilitator + "\n";
   text += "observer     " + links.observer + "\n";
   if (links.seats.empty()) {
-    text += "participants " + links.join + (links.code.empty() ? "" : "   (code " + links.code + ")") + "\n";
+    text += "participants " + links.join + "   (code " + links.code + ")" + "\n";
   }
   for (std::size_t i = 0; i < links.seats.size(); ++i) text += fmt::format("person {}     {}\n", i + 1, links.seats[i]);
   text += "data         " + folder.string() + "\n";
@@ -366,15 +335,19 @@ int run(const ServeOptions& options, Console& console) {
       rehearsed = rehearse(rehearsal_options(
           options, session.study, server.port(), tokens, [&server] { server.restart(); }, record));
     } else {
-      Links links;
-      {
-        LocalFacilitator facilitator{server.service(), tokens.facilitator};
-        // A room of its own for every start: the links of earlier ones are known to those who have them only.
-        if (options.demo) facilitator.make_rooms(server.service().num_rooms() + 1, persons(kDemoPeople));
-        facilitator.make_rooms(options.rooms);
-        links = links_of(server.base(), tokens, facilitator);
-        if (options.demo) links.seats = links_of_seats(facilitator);
+      const auto base = server.base();
+      auto& service = server.service();
+      Links links{.facilitator = base + "/f#t=" + tokens.facilitator,
+                  .observer = base + "/f#t=" + tokens.observer,
+                  .join = base + "/j?code=" + tokens.code,
+                  .code = tokens.code};
+      // A room of its own for every start: the links of earlier ones are known to those who have them only.
+      if (options.demo) {
+        const std::vector<std::string> persons(kDemoPeople, "person");
+        for (const auto& token : service.make_rooms(1, persons)) links.seats.push_back(base + "/j#t=" + token);
       }
+      const auto there = service.num_rooms();
+      if (there < options.rooms) service.make_rooms(options.rooms - there);
       print_links(links, folder, server.port(), console);
       console.info("the facilitator's link gives control over the session: keep it to yourself");
       console.info(temporary ? "Ctrl-C stops the server and deletes the data; to keep them, name a folder with -o"

@@ -32,7 +32,7 @@ struct SessionOptions {
   std::string room;      ///< Id or code; empty: all rooms.
   std::size_t seat = 0;  ///< With redact: of the person; 0: everybody.
   bool dry_run = false;  ///< Change nothing.
-  std::string out;       ///< Folder for tables or for the recovered session.
+  std::string out;       ///< Folder for tables or for the imported session.
   bool names = false;    ///< Export what identifies people, too.
   bool text = false;     ///< Export what people wrote in their own words, too.
   bool yes = false;      ///< Replace an existing export; erase for good.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include "json_depth.hpp"
+#include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/store/json_members.hpp"
 #include "service_state.hpp"
@@ -193,7 +195,25 @@ LiveService::StartLinks LiveService::start_links() {
     state.directory.set_links(facilitator.token, observer.token);
   });
   state_->save({.tokens = {facilitator.row, observer.row}}, [](bool) {});
-  return {.facilitator = facilitator.token, .observer = observer.token};
+  return {.facilitator = facilitator.token, .observer = observer.token, .code = state_->join_code};
+}
+
+std::vector<std::string> LiveService::make_rooms(std::size_t count, const std::vector<std::string>& seats) {
+  std::vector<std::string> tokens;
+  while (count > 0) {
+    const auto now = std::min(count, RoomMaker::kMostAtOnce);
+    Json body{{"count", now}, {"reason", "kith serve"}};
+    if (!seats.empty()) body["seats"] = seats;
+    const auto promise = std::make_shared<std::promise<RoomMaker::Made>>();
+    state_->post([&maker = state_->maker, body, promise] {
+      maker.make(body, "facilitator", {}, [promise](const RoomMaker::Made& made) { promise->set_value(made); });
+    });
+    const auto made = promise->get_future().get();
+    if (made.refusal) throw Error{ErrorKind::kInfeasible, made.refusal->text};
+    tokens.insert(tokens.end(), made.tokens.begin(), made.tokens.end());
+    count -= now;
+  }
+  return tokens;
 }
 
 std::size_t LiveService::num_rooms() const { return state_->directory.num_groups(); }

@@ -13,7 +13,6 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kCodeLength = 6;
-constexpr std::size_t kMostAtOnce = 200;
 
 std::optional<RoomWish> wish_of(const Json& body) {
   RoomWish wish{.strategy = text_at(body, "strategy")};
@@ -25,7 +24,7 @@ std::optional<RoomWish> wish_of(const Json& body) {
     }
   }
   if (const auto count = body.find("count"); count != body.end()) {
-    if (!count->is_number_unsigned() || *count < 1 || *count > kMostAtOnce) return std::nullopt;
+    if (!count->is_number_unsigned() || *count < 1 || *count > RoomMaker::kMostAtOnce) return std::nullopt;
     wish.count = count->get<std::size_t>();
   }
   return wish;
@@ -176,7 +175,10 @@ void RoomMaker::save(const std::shared_ptr<Batch>& batch) {
   service_.log.record(std::move(batch->stored), batch->actor, "room-make", batch->body, batch->message,
                       [this, batch](bool saved) {
                         if (!saved) return batch->done({.refusal = not_saved()});
-                        for (auto& link : batch->links) service_.directory.add(std::move(link));
+                        for (const auto& link : batch->links) {
+                          service_.directory.add(link);
+                          batch->made.tokens.push_back(link.token);
+                        }
                         for (const auto& room : batch->made.rooms) {
                           service_.directory.add(room);
                           room->post([room] { room->begin(); });

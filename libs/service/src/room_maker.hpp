@@ -55,9 +55,11 @@ class RoomMaker {
   // The rooms, or why there are none.
   struct Made {
     std::vector<std::shared_ptr<HostedRoom>> rooms{};
+    std::vector<std::string> tokens{};  // of the links of people
     std::optional<Refusal> refusal{};
   };
   using Done = std::function<void(const Made&)>;
+  static constexpr std::size_t kMostAtOnce = 200;
 
   explicit RoomMaker(ServiceState& service);
 

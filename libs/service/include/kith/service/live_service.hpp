@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include <vector>
 
 #include "kith/core/live_application.hpp"
 
@@ -51,6 +52,7 @@ class LiveService final : public LiveApplication {
   struct StartLinks {
     std::string facilitator;  ///< Token for /f#t=...
     std::string observer;
+    std::string code;  ///< For /j?code=..., of the study.
   };
 
   /// Opens the store, or makes a new one, and rebuilds all rooms from it.
@@ -65,6 +67,10 @@ class LiveService final : public LiveApplication {
 
   /// New tokens of a facilitator and an observer. Those given earlier stay valid until they expire or are revoked.
   [[nodiscard]] StartLinks start_links();
+  /// Makes rooms as a facilitator does, and waits until they are on the disk.
+  /// @param seats  "person" or a letter for each; none: as the study says. @return tokens of the people's seats.
+  /// @throws kith::Error (kInfeasible) with the reason if that is refused.
+  std::vector<std::string> make_rooms(std::size_t count, const std::vector<std::string>& seats = {});
   /// All rooms but the waiting list, also those that are being rebuilt and that views do not show yet.
   [[nodiscard]] std::size_t num_rooms() const;
   /// Sessions in memory, which is what most of it is for: those of rooms whose group is or will be taught, and those of
