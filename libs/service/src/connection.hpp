@@ -19,6 +19,7 @@ namespace kith {
 // Of RFC 6455; the last one of the range for applications.
 constexpr std::uint16_t kGoingAway = 1001;
 constexpr std::uint16_t kPolicy = 1008;
+constexpr std::uint16_t kInternal = 1011;
 constexpr std::uint16_t kElsewhere = 4001;
 
 // A connection. What is behind the first blank line is set once, by its hello; then come what the strand of the

@@ -87,6 +87,7 @@ class Directory {
   };
 
   [[nodiscard]] Place place_of(const Identity& identity) const;
+  void receive(const ConnectionPtr& connection, const std::optional<Json>& frame);
   void hello(const ConnectionPtr& connection, const Json& frame);
   void beat(const Connection& connection);
   void message(const ConnectionPtr& connection, const std::string& type, const Json& frame);

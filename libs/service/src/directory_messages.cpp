@@ -1,4 +1,5 @@
 // Connections: who they are, and what they ask for.
+#include <exception>
 #include <utility>
 
 #include "directory.hpp"
@@ -42,6 +43,14 @@ void Directory::receive(LiveService::ConnectionId id, const std::optional<Json>&
   const auto found = connections_.find(id);
   if (found == connections_.end() || found->second->is_closed) return;
   const auto connection = found->second;
+  try {
+    receive(connection, frame);
+  } catch (const std::exception&) {
+    connection->hang_up(kInternal, "the server has failed");
+  }
+}
+
+void Directory::receive(const ConnectionPtr& connection, const std::optional<Json>& frame) {
   const auto type = frame ? text_at(*frame, "t") : std::string{};
   if (!connection->is_known) {
     if (type != "hello") return connection->hang_up(kPolicy, "the first message must be a hello");

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <utility>
 
-#include "kith/core/error.hpp"
 #include "kith/store/json_members.hpp"
 #include "kith/store/random_token.hpp"
 #include "service_state.hpp"
@@ -140,7 +139,7 @@ void RoomMaker::make(const Json& body, const std::string& actor, const std::stri
   service_.strands.post(strand_, [this, batch] {
     try {
       build(*batch);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       batch->made = {.refusal = Refusal{"bad-room", error.what()}};
     }
     service_.post([this, batch] { save(batch); });

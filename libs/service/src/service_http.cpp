@@ -52,11 +52,16 @@ std::string parameter(std::string_view query, std::string_view name) {
   return {};
 }
 
-// Without the query, and without the key of a world.
-std::string path_of(const std::string& target) {
-  const auto path = target.substr(0, target.find('?'));
-  return path.compare(0, kWorlds.size(), kWorlds) == 0 ? "/api/world" : path;
-}
+// "/api/world/KEY?a=1" as "/api/world", "KEY" and "a=1". Only worlds have keys.
+struct Target {
+  explicit Target(const std::string& target) : path{target.substr(0, target.find('?'))} {
+    query = target.substr(std::min(path.size() + 1, target.size()));
+    if (path.compare(0, kWorlds.size(), kWorlds) != 0) return;
+    key = path.substr(kWorlds.size());
+    path = "/api/world";
+  }
+  std::string path, key{}, query{};
+};
 
 HttpReply world_reply(const LiveStudy& study, const std::string& key) {
   const auto number = world_of_key(study, key);
@@ -109,7 +114,7 @@ void ServiceState::answer_on(const Strand& strand, const HttpAnswer& answer, std
 }
 
 void ServiceState::handle(const LiveService::HttpRequest& request, const HttpAnswer& answer) {
-  const auto route = request.method + " " + path_of(request.target);
+  const auto route = request.method + " " + Target{request.target}.path;
   const auto known = permissions();
   if (std::none_of(known.begin(), known.end(), [&](const Permission& permission) { return permission.name == route; }))
     return answer(error_reply(404, "not-found", "There is no such page."));
@@ -124,21 +129,21 @@ void ServiceState::handle(const LiveService::HttpRequest& request, const HttpAns
 
 // On the strand of the desk.
 void ServiceState::serve(const std::string& route, const LiveService::HttpRequest& request, const HttpAnswer& answer) {
-  const auto query = request.target.substr(std::min(request.target.find('?'), request.target.size()));
+  const Target target{request.target};
   if (route == "GET /api/health") return answer(json_reply(200, {{"status", "ok"}, {"server", options.program}}));
   if (route == "POST /api/join") return joins.join(request, answer);
   if (route == "GET /api/texts") return answer(json_reply(200, language_json(*study)));
   if (route == "GET /api/world") {
-    return answer_on(pages, answer, [=, this] { answer(world_reply(*study, request.target.substr(kWorlds.size()))); });
+    return answer_on(pages, answer, [=, this] { answer(world_reply(*study, target.key)); });
   }
   if (route == "GET /api/integrity") {
     return views.integrity(directory.num_unsaved(), [answer](const Json& counts) { answer(json_reply(200, counts)); });
   }
-  if (route == "GET /api/qr") return answer(qr_reply(parameter(query, "text")));
+  if (route == "GET /api/qr") return answer(qr_reply(parameter(target.query, "text")));
 
   // What is left is GET /api/export.
   SessionExportOptions what;
-  if (const auto name = parameter(query, "room"); !name.empty()) {
+  if (const auto name = parameter(target.query, "room"); !name.empty()) {
     const auto room = directory.room_named(name);
     if (!room) return answer(error_reply(404, "no-room", "There is no such room."));
     what.room = room->number();

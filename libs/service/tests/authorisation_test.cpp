@@ -110,16 +110,17 @@ class AuthorisationMatrix : public ::testing::Test {
     const auto socket = std::make_shared<FakeSocket>();
     const auto connection = stage_.service().open(socket);
     stage_.service().receive(connection, Json{{"t", "hello"}, {"v", 1}, {"token", link.token}}.dump());
+    stage_.service().settle();
     if (link.role == Role::kNobody) {
       EXPECT_EQ(socket->close_code(), 1008) << link.story;
       (void)socket->take();
       for (const auto& message : kMessages) {
         stage_.service().receive(connection, Json{{"t", message.name}, {"id", "x"}, {"body", Json::object()}}.dump());
+        stage_.service().settle();
         EXPECT_TRUE(socket->take().empty()) << link.story << ": " << message.name;
       }
       return;
     }
-    stage_.service().settle();
     (void)socket->take();
     for (const auto& message : kMessages) {
       const bool is_expected = message.allowed[static_cast<std::size_t>(link.role)] != '-';
