@@ -190,6 +190,15 @@ check_budget() {
   } | none
 }
 
+# Every id of a diagnostic stands in a test. Three are of what no test brings about: a disk that loses rows of an export,
+# a session of a later kith, a study that only people's words keep from them.
+check_ids() {
+  local named
+  named=$(files '*.cpp' '*.hpp' '*.py' '*.mjs' | grep -E "$of_tests" | xargs -r -d '\n' grep -hoE '[EW][01][0-9]{3}' | sort -u)
+  files '*.cpp' | grep -E '^(libs|apps)/[a-z]+/src/' | xargs -r -d '\n' grep -hoE '"[EW][01][0-9]{3}"' | tr -d '"' | sort -u |
+    grep -vxE 'E1615|E1617|E1625' | grep -vxF -f <(echo "$named") | sed 's/$/: no test brings it about/' | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "error_ids.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "small_study.hpp"
 
 namespace kith {
@@ -63,7 +63,7 @@ TEST(Findings, AreRefusedWithTheirPlace) {
 }
 
 TEST(Findings, OfThePaperAreGood) {
-  const auto text = testing::text_of(std::filesystem::path{KITH_SOURCE_DIR} / "studies" / "paper-targets.toml");
+  const auto text = read_file(std::filesystem::path{KITH_SOURCE_DIR} / "studies" / "paper-targets.toml");
   const auto reading = parse_findings(text, "paper-targets.toml", load_study("paper").study->variants.front());
   ASSERT_TRUE(reading.findings);
   EXPECT_EQ(reading.findings->size(), 13u);

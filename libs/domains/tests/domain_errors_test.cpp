@@ -3,14 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "domain_texts.hpp"
 #include "domains_under_test.hpp"
-#include "error_ids.hpp"
 #include "kith/core/error.hpp"
 
 namespace kith {
@@ -462,25 +460,6 @@ TEST(LoadDomain, ReadsAFileAndThrowsItsErrors) {
   std::filesystem::remove(path);
   EXPECT_THROW((void)read_domain(path), Error);
   EXPECT_THROW((void)read_domain(folder), Error);
-}
-
-TEST(DomainErrorIds, AreAllTriggeredHere) {
-  std::set<std::string> triggered;
-  const auto trigger = [&](const std::string& text) {
-    for (const Diagnostic& d : parse_domain(text, "t").diagnostics) triggered.insert(d.id);
-  };
-  for (const Case& c : cases()) trigger(edited_text(c));
-  for (const std::string& text : {std::string{kSkateboard}, flat_prior(), testing::steps_domain("\"S.G\"")})
-    trigger(text);
-  triggered.insert("E0116");  // load_domain, above
-  for (const std::string& id : kith::testing::error_ids_in("domains")) {
-    const bool of_models = (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" ||
-                           id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205" || id == "W0210" ||
-                           id == "W0211";
-    const bool of_layers = (id >= "E0265" && id < "E0300") || id == "W0206" || id == "W0208" || id == "W0209";
-    // Those of models: model_errors_test; of layers and rasters: layers_test; of what was inferred: policy_file_test.
-    EXPECT_TRUE(of_models || of_layers || id == "E0318" || id == "E0319" || triggered.contains(id)) << id;
-  }
 }
 
 }  // namespace

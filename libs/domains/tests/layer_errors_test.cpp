@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "error_ids.hpp"
 #include "layered_domains.hpp"
 
 namespace kith {
@@ -204,17 +202,6 @@ TEST_P(LayerError, IsReportedAtItsPlaceWithAHint) {
 
 INSTANTIATE_TEST_SUITE_P(All, LayerError, ::testing::ValuesIn(layer_cases()),
                          [](const auto& c) { return c.param.name; });
-
-TEST(LayerErrorIds, AreAllTriggeredHere) {
-  std::set<std::string> triggered;
-  for (const LayerCase& c : layer_cases()) {
-    for (const Diagnostic& d : read_case(c).diagnostics) triggered.insert(d.id);
-  }
-  for (const std::string& id : kith::testing::error_ids_in("domains")) {
-    const bool mine = (id >= "E0265" && id < "E0275") || id == "W0206" || id == "W0208" || id == "W0209";
-    EXPECT_TRUE(!mine || triggered.contains(id)) << id;
-  }
-}
 
 TEST(LayerErrors, ShowNoBytesOfBinaryImages) {
   const auto reading = read(domain_text("occupancy = \"floor.yaml\"\n" + kLegend, "leave:smoke"),

@@ -2,9 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
-#include "error_ids.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/other_models.hpp"
 #include "kith/mdp/behaviour.hpp"
@@ -282,22 +279,5 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
 }
 
 // Those of this page of the documentation; the others are those of grids.
-bool is_of_models(const std::string& id) {
-  return (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" || id == "E0323" ||
-         id == "E0324" || id == "W0204" || id == "W0205" || id == "W0211";
-}
-
-TEST(ModelErrorIds, AreAllTriggeredHere) {
-  std::set<std::string> triggered{"E0236", "E0242", "E0257", "E0260",
-                                  "E0324", "W0204", "W0211"};  // above, and explicit_model_test
-  for (const ModelCase& c : model_cases()) {
-    for (const Diagnostic& d : read_model_texts(edited(*c.base, c.file, c.from, c.to)).diagnostics)
-      triggered.insert(d.id);
-  }
-  for (const std::string& id : kith::testing::error_ids_in("domains")) {
-    EXPECT_TRUE(!is_of_models(id) || triggered.contains(id)) << id;
-  }
-}
-
 }  // namespace
 }  // namespace kith
