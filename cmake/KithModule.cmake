@@ -2,9 +2,9 @@
 #
 # One folder under libs/ = one target = one layer = one include root. DEPENDS is
 # the only way to see another layer's headers, so the graph in CMake is the
-# graph in the code. Sources (src/*.cpp), headers (include/kith/<name>/*.hpp),
-# tests (tests/*_test.cpp) and benchmarks (bench/*_bench.cpp) are found by their
-# place; a layer without sources is header-only.
+# graph in the code. Sources (src/*.cpp), headers (include/kith/<name>/*.hpp)
+# and tests (tests/*_test.cpp) are found by their place; a layer without sources
+# is header-only.
 #
 # Every header is compiled alone against exactly DEPENDS by the target
 # all_verify_interface_header_sets, which is not part of `all`.
@@ -43,14 +43,5 @@ function(kith_module name)
   if(KITH_BUILD_TESTS AND tests)
     kith_test_program(${name} SOURCES ${tests} DEPENDS kith::${name} ${arg_TEST_DEPENDS})
     target_include_directories(kith_${name}_tests PRIVATE tests)
-  endif()
-
-  file(GLOB benches CONFIGURE_DEPENDS bench/*_bench.cpp)
-  if(KITH_BUILD_BENCHMARKS AND benches)
-    add_executable(kith_${name}_bench ${benches})
-    set_target_properties(kith_${name}_bench PROPERTIES UNITY_BUILD OFF)
-    target_link_libraries(kith_${name}_bench PRIVATE
-      kith::${name} kith_build benchmark::benchmark_main ${arg_TEST_DEPENDS})
-    target_include_directories(kith_${name}_bench PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/include)
   endif()
 endfunction()

@@ -163,7 +163,7 @@ check_columns() {
 
 # Lines of source that it reads the names of.
 source_lines() { grep -E '\.(cpp|hpp|ts|tsx|mjs|js|css|html|sh|py|R|cmake)$|CMakeLists\.txt$' | xargs -r -d '\n' cat | wc -l; }
-of_tests='^(tests/|libs/[^/]+/(tests|bench)/|apps/[^/]+/(tests|bench)/|web/(tests|sample)/|python/tests/)'
+of_tests='^(tests/|libs/[^/]+/tests/|apps/[^/]+/tests/|web/(tests|sample)/|python/tests/)'
 lines_of() {  # a part of the table
   case $1 in
     tests) files | grep -E "$of_tests" | source_lines ;;
