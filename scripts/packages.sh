@@ -17,7 +17,7 @@ packages_to_pack=(dpkg-dev file libopenmpi-dev)  # cpack asks `file` what needs 
 packages_to_test=(libgtest-dev libgmock-dev chromium-headless-shell libopenmpi-dev openmpi-bin)
 packages_for_lesson=(emscripten xz-utils)  # LLVM for WebAssembly; what packs the page
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
-  firefox-esr slowhttptest
+  firefox-esr
   mypy python3-matplotlib python3-pip python3-setuptools python3-wheel
   r-base-core r-cran-car r-cran-emmeans r-cran-jsonlite r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-ordinal
   r-cran-survival)

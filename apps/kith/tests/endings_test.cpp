@@ -200,7 +200,7 @@ TEST(Memory, ThatIsNotThereIsAnErrorOfItsOwn) {
   for (const auto& command :
        std::vector<std::vector<std::string>>{{"inspect", "item-delivery"}, {"inspect", "item-delivery", "--json"}}) {
     std::size_t refused = 0;
-    for (auto megabytes = enough; megabytes < enough + 400; megabytes += 2) {
+    for (auto megabytes = enough; megabytes < enough + 400; megabytes += 6) {
       const auto ran = run_in_memory(command, megabytes);
       if (ran.code == 0) break;
       ++refused;
