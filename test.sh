@@ -12,8 +12,8 @@ declare -A budget=([release]=16 [ratios]=3 [headers]=10 [asan]=24 [tsan]=5 [pyth
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
-                             all tests in build/release, and the tests of the
-                             lowest layers under ASan and UBSan in build/asan
+                             all tests in build/release, and those of layers that
+                             read files under ASan and UBSan in build/asan
        ./test.sh --quick     the same without the sanitizers
        ./test.sh --nightly [PART...] [MINUTES]
                              all parts of the night, or those that are named:
@@ -120,8 +120,8 @@ run_tests() {  # PRESET [OPTION...]
 tests_of() { printf 'kith_%s_tests\n' "$@"; }
 labels_of() { printf '^(%s)$' "$(IFS='|' && printf '%s' "$*")"; }
 
-# Where files are read and indices are computed; what is built on that takes most of the time and is left to the night.
-sanitized=(core files geometry mdp domains)
+# Where files of others are read. Indices are checked in build/release too; the other layers are left to the night.
+sanitized=(core files domains)
 threaded=(core mdp bec teaching study runs service)
 layers=(libs/*/tests)
 layers=("${layers[@]#libs/}")
