@@ -163,9 +163,10 @@ Estimable<NestedModel> fit_nested_model(std::span<const double> response, std::s
     levels.push_back(drop_unused(group));
   }
   const auto made = make_cell_design(response.size(), factors, terms);
+  if (auto fault = fault_of(levels, response.size()); !response.empty() && !fault.empty())
+    return Result::impossible(std::move(fault));
   if (!made) return Result::impossible(made.reason());
   const auto& design = *made;
-  if (auto fault = fault_of(levels, response.size()); !fault.empty()) return Result::impossible(std::move(fault));
 
   const auto standardized = standardize(response);
   const auto squares = squares_in_strata(standardized.values, levels);

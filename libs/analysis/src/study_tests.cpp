@@ -48,54 +48,28 @@ std::vector<std::size_t> compositions_of(const TeamPool& pool, const Effect& eff
   return all;
 }
 
-// What a term adds to the mean of each cell, shape [groups][compositions of the effect], by the cells' means.
-std::vector<std::vector<double>> term_effects(const std::vector<std::vector<double>>& means, Effect::Kind kind) {
-  const auto rows = means.size(), columns = means.front().size();
-  std::vector<double> row_mean(rows, 0.0), column_mean(columns, 0.0);
-  double mean = 0.0;
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      row_mean[i] += means[i][j] / static_cast<double>(columns);
-      column_mean[j] += means[i][j] / static_cast<double>(rows);
-      mean += means[i][j] / static_cast<double>(rows * columns);
-    }
+// What a term adds to the means of the effect's cells, row by row of the groups.
+std::vector<double> term_effects(const std::vector<double>& means, std::size_t groups, Effect::Kind kind) {
+  Factor group{"", std::vector<std::string>(groups), {}},
+      composition{"", std::vector<std::string>(means.size() / groups), {}};
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    group.codes.push_back(i / composition.levels.size());
+    composition.codes.push_back(i % composition.levels.size());
   }
-  auto effects = means;
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      switch (kind) {
-        case Effect::Kind::kComposition:
-          effects[i][j] = column_mean[j] - mean;
-          break;
-        case Effect::Kind::kInteraction:
-          effects[i][j] = means[i][j] - row_mean[i] - column_mean[j] + mean;
-          break;
-        default:
-          effects[i][j] = row_mean[i] - mean;
-      }
-    }
-  }
-  return effects;
+  const auto design = make_cell_design(means.size(), std::vector{group, composition}, {}).value();
+  if (kind == Effect::Kind::kInteraction) return design.effect({0, 1}, means);
+  return design.effect({kind == Effect::Kind::kComposition ? 1u : 0u}, means);
 }
 
-double mean_square(const std::vector<std::vector<double>>& effects) {
-  double sum = 0.0, n = 0.0;
-  for (const auto& row : effects) {
-    for (const double x : row) {
-      sum += x * x;
-      n += 1.0;
-    }
-  }
-  return sum / n;
+double mean_square(const std::vector<double>& effects) {
+  return std::inner_product(effects.begin(), effects.end(), effects.begin(), 0.0) / static_cast<double>(effects.size());
 }
 
-std::vector<std::vector<double>> cell_means(const TeamPool& pool, const Effect& effect,
-                                            const std::vector<std::size_t>& groups,
-                                            const std::vector<std::size_t>& compositions) {
-  std::vector<std::vector<double>> means;
+std::vector<double> cell_means(const TeamPool& pool, const Effect& effect, const std::vector<std::size_t>& groups,
+                               const std::vector<std::size_t>& compositions) {
+  std::vector<double> means;
   for (const auto s : groups) {
-    means.emplace_back();
-    for (const auto c : compositions) means.back().push_back(mean(pool.cell(*effect.outcome, s, c)));
+    for (const auto c : compositions) means.push_back(mean(pool.cell(*effect.outcome, s, c)));
   }
   return means;
 }
@@ -141,20 +115,20 @@ void EffectData::impose(const TeamPool& pool, const Effect& effect) {
   // The pattern of the pool's own means, or a ramp where they do not differ, at the size asked for.
   const auto groups = group_positions(pool);
   const auto compositions = compositions_of(pool, effect);
-  auto effects = term_effects(cell_means(pool, effect, groups, compositions), effect.kind);
+  auto effects = term_effects(cell_means(pool, effect, groups, compositions), groups.size(), effect.kind);
   const double variance = variance_within(pool, *effect.outcome, groups, compositions);
   if (mean_square(effects) <= 1e-24 * (variance + 1e-300)) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       for (std::size_t j = 0; j < compositions.size(); ++j)
-        effects[i][j] = (static_cast<double>(i) + 1.0) * (static_cast<double>(j) + 1.0);
+        effects[i * compositions.size() + j] = (static_cast<double>(i) + 1.0) * (static_cast<double>(j) + 1.0);
     }
-    effects = term_effects(effects, effect.kind);
+    effects = term_effects(effects, groups.size(), effect.kind);
   }
   const double wanted = variance * *effect.imposed / (1.0 - *effect.imposed);
   const double scale = std::sqrt(wanted / mean_square(effects));
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (std::size_t j = 0; j < compositions.size(); ++j)
-      shift_[groups[i] * num_compositions_ + compositions[j]] += scale * effects[i][j];
+      shift_[groups[i] * num_compositions_ + compositions[j]] += scale * effects[i * compositions.size() + j];
   }
 }
 
@@ -386,23 +360,17 @@ double effect_size(const TeamPool& pool, const Effect& effect) {
     return sum[0] / n[0] - sum[1] / n[1];
   }
   const auto compositions = compositions_of(pool, effect);
-  return eta_squared(cell_means(pool, effect, groups, compositions),
-                     variance_within(pool, *effect.outcome, groups, compositions), pool.replicates(), effect);
+  const auto effects = term_effects(cell_means(pool, effect, groups, compositions), groups.size(), effect.kind);
+  const double variance = variance_within(pool, *effect.outcome, groups, compositions);
+  // The cells' means vary by chance too: df * variance / (cells * replicates) of the mean square is noise.
+  const auto df = static_cast<double>(term_df(effect, groups.size(), compositions.size()));
+  const double noise = df * variance / static_cast<double>(effects.size() * pool.replicates());
+  const double square = std::max(0.0, mean_square(effects) - noise);
+  return variance > 0.0 ? square / (square + variance) : 0.0;
 }
 
 TermCells cells_of(const TeamPool& pool, const Effect& effect) {
   return {group_positions(pool), compositions_of(pool, effect)};
-}
-
-double eta_squared(const std::vector<std::vector<double>>& means, double variance, std::size_t replicates,
-                   const Effect& effect) {
-  const auto effects = term_effects(means, effect.kind);
-  const double cells = static_cast<double>(means.size() * means.front().size());
-  const auto df = static_cast<double>(term_df(effect, means.size(), means.front().size()));
-  // The cells' means vary by chance too: df * variance / (cells * replicates) of the mean square is noise.
-  const double noise = df * variance / (cells * static_cast<double>(replicates));
-  const double square = std::max(0.0, mean_square(effects) - noise);
-  return variance > 0.0 ? square / (square + variance) : 0.0;
 }
 
 bool is_selected(const TeamPool& pool, const TeamSelection& teams, std::size_t strategy, std::size_t composition) {

@@ -76,11 +76,6 @@ struct TermCells {
 };
 [[nodiscard]] TermCells cells_of(const TeamPool& pool, const Effect& effect);
 
-// Partial eta squared of a term, corrected for bias.
-// @param means  of the cells, shape [groups][compositions]. @param variance  within cells.
-[[nodiscard]] double eta_squared(const std::vector<std::vector<double>>& means, double variance, std::size_t replicates,
-                                 const Effect& effect);
-
 // Whether a cell of the pool is selected.
 [[nodiscard]] bool is_selected(const TeamPool& pool, const TeamSelection& teams, std::size_t strategy,
                                std::size_t composition);

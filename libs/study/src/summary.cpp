@@ -6,21 +6,21 @@
 namespace kith {
 namespace {
 
-using Value = std::optional<double>;
+using Figure = std::optional<double>;
 
 // A value of a team, and where its mean goes.
 struct Measure {
   std::optional<MeanSd> CellSummary::*mean;
-  Value (*of)(const TeamRecord& team);
+  Figure (*of)(const TeamRecord& team);
 };
 
 template <double TeamExam::*member>
-Value in_exam(const TeamRecord& team) {
-  return team.exam ? Value{(*team.exam).*member} : std::nullopt;
+Figure in_exam(const TeamRecord& team) {
+  return team.exam ? Figure{(*team.exam).*member} : std::nullopt;
 }
 
 // Teams that were examined at the end only have no rows of period 0, unless nothing was taught.
-Value regret_before(const TeamRecord& team) {
+Figure regret_before(const TeamRecord& team) {
   double sum = 0.0;
   std::size_t members = 0;
   for (const auto& row : team.exams) {
@@ -33,13 +33,13 @@ Value regret_before(const TeamRecord& team) {
 }
 
 constexpr std::array kMeasures{
-    Measure{&CellSummary::periods, [](const TeamRecord& team) { return Value{static_cast<double>(team.periods)}; }},
-    Measure{&CellSummary::knowledge, [](const TeamRecord& team) { return Value{team.knowledge}; }},
-    Measure{&CellSummary::area_sr, [](const TeamRecord& team) { return Value{team.area_sr}; }},
+    Measure{&CellSummary::periods, [](const TeamRecord& team) { return Figure{static_cast<double>(team.periods)}; }},
+    Measure{&CellSummary::knowledge, [](const TeamRecord& team) { return Figure{team.knowledge}; }},
+    Measure{&CellSummary::area_sr, [](const TeamRecord& team) { return Figure{team.area_sr}; }},
     Measure{&CellSummary::person_periods,
-            [](const TeamRecord& team) { return Value{static_cast<double>(team.cost.person_periods)}; }},
-    Measure{&CellSummary::minutes, [](const TeamRecord& team) { return Value{team.cost.minutes}; }},
-    Measure{&CellSummary::person_minutes, [](const TeamRecord& team) { return Value{team.cost.person_minutes}; }},
+            [](const TeamRecord& team) { return Figure{static_cast<double>(team.cost.person_periods)}; }},
+    Measure{&CellSummary::minutes, [](const TeamRecord& team) { return Figure{team.cost.minutes}; }},
+    Measure{&CellSummary::person_minutes, [](const TeamRecord& team) { return Figure{team.cost.person_minutes}; }},
     Measure{&CellSummary::share_right, in_exam<&TeamExam::share_right>},
     Measure{&CellSummary::regret, in_exam<&TeamExam::regret>},
     Measure{&CellSummary::worst_share_right, in_exam<&TeamExam::worst_share_right>},
