@@ -112,13 +112,6 @@ const knowledgeByPeriod = each(names, typeNames, [...Array(10).keys()]).map(([s,
   period,
   ...rising(0.08, (t === 'P' ? 0.75 : 0.6) + 0.02 * names.indexOf(s), 0.22, period, peopleLeft(period)),
 ]);
-const abilityByPeriod = each(names, typeNames, components, [1, 2, 3, 4]).map(([s, t, kc, period]) => [
-  s,
-  t,
-  kc,
-  period,
-  ...rising(t === 'P' ? 0.79 : 0.69, 0.92, 0.25, period - 1 + 0.1 * names.indexOf(s), peopleLeft(period + 3 * kc)),
-]);
 const correctByPeriod = each(names, typeNames, [...Array(9).keys()]).map(([s, t, period]) => {
   const [share, low, high, answers] = rising(
     t === 'P' ? 0.72 : 0.6,
@@ -132,10 +125,6 @@ const correctByPeriod = each(names, typeNames, [...Array(9).keys()]).map(([s, t,
 const area = each(names, components).map(([strategy, kc]) => {
   const mean = -0.2 - 0.35 * kc - 0.09 * names.indexOf(strategy) + 0.02 * random.normal();
   return [strategy, kc, round(mean), round(mean - 0.06), round(mean + 0.06), round(Math.exp(mean)), 60 + 5 * kc];
-});
-const areaCells = each(names, compositions).map(([strategy, composition]) => {
-  const mean = 0.75 - 0.06 * names.indexOf(strategy) - 0.03 * numP(composition) + 0.01 * random.normal();
-  return [strategy, composition, round(mean), round(mean - 0.05), round(mean + 0.05), replicates];
 });
 const periodsByComponent = each(names, compositions, components).map(([strategy, composition, kc]) => {
   const total = meanInterval(cellOf(strategy, composition).map((t) => t.periods)).mean;
@@ -398,12 +387,7 @@ const report = {
     ),
     completion: table(['strategy', 'composition', 'period', 'done', 'low', 'high', 'at_risk'], completion),
     area: table(['strategy', 'kc', 'mean_log_area', 'low', 'high', 'mean_area_sr', 'n'], area),
-    area_cells: table(['strategy', 'composition', 'mean_area_sr', 'low', 'high', 'n'], areaCells),
     knowledge_by_period: table(['strategy', 'type', 'period', 'mean', 'low', 'high', 'people'], knowledgeByPeriod),
-    ability_by_period: table(
-      ['strategy', 'type', 'kc', 'period_of_kc', 'mean', 'low', 'high', 'people'],
-      abilityByPeriod,
-    ),
     correct_by_period: table(['strategy', 'type', 'period', 'share', 'low', 'high', 'answers'], correctByPeriod),
     periods_by_component: table(['strategy', 'composition', 'kc', 'mean_periods', 'low', 'high'], periodsByComponent),
     exam_by_period: table(

@@ -125,7 +125,7 @@ describe('a document', () => {
       assert.equal(await page.textContent('h1'), `${attack}.`);
       assert.equal(await page.title(), attack);
       assert.equal(await page.evaluate(() => window.attacked), undefined);
-      await page.hover('#figure-interaction svg .mark-symbol path');
+      await page.hover('#figure-periods svg .mark-symbol path');
       assert.equal(await page.$('img'), null);
     });
   });

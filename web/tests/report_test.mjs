@@ -234,17 +234,16 @@ describe('a report', () => {
   });
 
   // The colour of a cell is mixed with the ground; the contrast is WCAG's.
-  it('values of a heat map can be read on every colour, and each row has one frame', async () => {
+  it('values of a heat map can be read on every colour', async () => {
     for (const dark of [false, true]) {
       await withReport({ width: 1280, dark }, async ({ page }) => {
         if (!(await page.$('#figure-matrix-1'))) return;
-        const { cells, text, ground, frames, values: shown, best } = await page.evaluate(() => {
+        const { cells, text, ground, values: shown, best } = await page.evaluate(() => {
           const figure = document.querySelector('#figure-matrix-1');
           const styles = [...figure.querySelectorAll('.mark-rect path')].map((path) => getComputedStyle(path));
           figure.querySelector('details').open = true;
           return {
             cells: styles.filter(({ fill }) => fill !== 'none').map(({ fill, fillOpacity }) => ({ fill, opacity: Number(fillOpacity) })),
-            frames: styles.filter(({ fill, stroke }) => fill === 'none' && stroke !== 'none').length,
             text: getComputedStyle(figure.querySelector('.mark-text.role-mark text')).fill,
             ground: getComputedStyle(document.body).backgroundColor,
             values: figure.querySelectorAll('svg .mark-text text').length,
@@ -261,7 +260,6 @@ describe('a report', () => {
           const [high, low] = [light(channels(text)), light(mixed)].sort((a, b) => b - a);
           assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${text} on ${fill} at ${opacity}`);
         }
-        assert.equal(frames, 8, 'the best of four rows, for two outcomes');
         assert.ok(shown > cells.length, 'a value in every cell');
         assert.match(best, /best in each row: bayesian: common 0[.]030; /);
       });

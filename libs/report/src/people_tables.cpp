@@ -52,20 +52,6 @@ Json knowledge_by_period_table(const RunFiles& run, const ReportDesign& design, 
   return std::move(table).take();
 }
 
-Json ability_by_period_table(const RunFiles& run, const ReportDesign& design, const RunData& data) {
-  JsonTable table{{"strategy", "type", "kc", "period_of_kc", "mean", "low", "high", "people"}};
-  for (const auto& [key, values] : data.ability) {
-    if (!enough(values.size(), people_of(run, design, key[0], key[1]))) continue;
-    auto row = person_keys(run, design, key);
-    row.push_back(key[2] + 1);
-    row.push_back(key[3]);
-    add_interval(row, values);
-    row.push_back(values.size());
-    table.add(std::move(row));
-  }
-  return std::move(table).take();
-}
-
 Json correct_by_period_table(const RunFiles& run, const ReportDesign& design, const RunData& data) {
   JsonTable table{{"strategy", "type", "period", "share", "low", "high", "answers"}};
   for (const auto& [key, values] : data.answers) {

@@ -10,7 +10,6 @@ namespace kith::detail {
 // @param before  by type: mass of a belief in the policy's class before teaching, which is row 0 of every curve.
 [[nodiscard]] Json knowledge_by_period_table(const RunFiles& run, const ReportDesign& design, const RunData& data,
                                              const std::vector<double>& before);
-[[nodiscard]] Json ability_by_period_table(const RunFiles& run, const ReportDesign& design, const RunData& data);
 [[nodiscard]] Json correct_by_period_table(const RunFiles& run, const ReportDesign& design, const RunData& data);
 
 }  // namespace kith::detail

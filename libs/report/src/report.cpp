@@ -241,11 +241,7 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
               {"completion", completion_table(design, data)}};
   if (data.has_periods) {
     tables["area"] = area_table(design, data);
-  }
-  tables["area_cells"] = area_cells_table(design, data);
-  if (data.has_periods) {
     tables["knowledge_by_period"] = knowledge_by_period_table(run, design, data, mass_before(run, atlas));
-    tables["ability_by_period"] = ability_by_period_table(run, design, data);
     tables["correct_by_period"] = correct_by_period_table(run, design, data);
     tables["periods_by_component"] = periods_by_component_table(design, data);
   }

@@ -245,23 +245,15 @@ class DataReader {
   }
 
   void read_progress() {
-    std::size_t team = kNoTeam;
-    std::vector<std::size_t> seen;  // shape [members, components]: periods of the component so far
     std::map<std::pair<std::size_t, std::size_t>, std::pair<PeopleKey, double>> last;  // by team and member
-    read_table<ProgressRecord>(
-        "progress.csv", {columns::kPeriod, columns::kComponent, columns::kMember, columns::kAbility, columns::kBelief},
-        [&](const RecordRow& row, const ProgressRecord& progress) {
-          if (row.team != team) seen.assign(row.address.composition.size() * data_.num_components, 0);
-          team = row.team;
-          const auto period = row.within(progress.period, 1, max_period(row));
-          const auto kc = component_of(row, progress.component);
-          const auto member = progress.member - 1;
-          const auto [series, type] = place(row, member);
-          const auto in_component = ++seen[member * data_.num_components + kc];
-          if (progress.ability) data_.ability[{series, type, kc, in_component}].push_back(*progress.ability);
-          data_.knowledge[{series, type, 0, period}].push_back(progress.p_bec);
-          last[{team, member}] = {{series, type, 0, period}, progress.p_bec};
-        });
+    read_table<ProgressRecord>("progress.csv", {columns::kPeriod, columns::kMember, columns::kBelief},
+                               [&](const RecordRow& row, const ProgressRecord& progress) {
+                                 const auto period = row.within(progress.period, 1, max_period(row));
+                                 const auto member = progress.member - 1;
+                                 const auto [series, type] = place(row, member);
+                                 data_.knowledge[{series, type, 0, period}].push_back(progress.p_bec);
+                                 last[{row.team, member}] = {{series, type, 0, period}, progress.p_bec};
+                               });
     for (const auto& [person, value] : last) {
       const auto& [key, known] = value;
       data_.knowledge_at_end[key].push_back(known);

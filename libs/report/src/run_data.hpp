@@ -83,7 +83,6 @@ struct RunData {
   std::vector<ComponentValues> components;  // shape [teams, num_components], row-major
   PeopleValues knowledge;                   // component 0
   PeopleValues knowledge_at_end;            // of those who were taught last in this period
-  PeopleValues ability;
   std::map<PeopleKey, Answers> answers;
   bool has_exam = false;
   // Beyond three features knowledge says little, so that the exam leads; set by read_run_data().

@@ -120,18 +120,6 @@ Json completion_table(const ReportDesign& design, const RunData& data) {
   return std::move(table).take();
 }
 
-Json area_cells_table(const ReportDesign& design, const RunData& data) {
-  JsonTable table{{"strategy", "composition", "mean_area_sr", "low", "high", "n"}};
-  const auto values = by_cell(design, data, outcome_named(columns::kAreaSr).of);
-  for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
-    auto row = cell_keys(design, cell);
-    add_interval(row, values[cell]);
-    row.push_back(values[cell].size());
-    table.add(std::move(row));
-  }
-  return std::move(table).take();
-}
-
 Json area_table(const ReportDesign& design, const RunData& data) {
   JsonTable table{{"strategy", "kc", "mean_log_area", "low", "high", "mean_area_sr", "n"}};
   for (std::size_t series = 0; series < design.series.size(); ++series) {

@@ -19,7 +19,6 @@ void add_interval(Json& row, std::span<const double> values);
 [[nodiscard]] Json teams_table(const RunFiles& run, const ReportDesign& design, const RunData& data,
                                std::size_t points);
 [[nodiscard]] Json completion_table(const ReportDesign& design, const RunData& data);
-[[nodiscard]] Json area_cells_table(const ReportDesign& design, const RunData& data);
 [[nodiscard]] Json area_table(const ReportDesign& design, const RunData& data);
 [[nodiscard]] Json periods_by_component_table(const ReportDesign& design, const RunData& data);
 

@@ -99,10 +99,6 @@ TEST_F(InventedReport, FollowsPeopleOverPeriods) {
   // Of two people one is no longer taught, and counts with the 0.3 that they knew last.
   EXPECT_NEAR(knowledge[2].at(3).get<double>(), (0.25 + 0.3) / 2.0, kTiny);
   EXPECT_EQ(knowledge[2].at(6), 2);
-  const auto ability = rows("ability_by_period", {"common", "N", 1});
-  EXPECT_NEAR(ability.at(0).at(4).get<double>(), 0.75, kTiny);
-  EXPECT_NEAR(ability.at(1).at(4).get<double>(), 0.75, kTiny);
-  EXPECT_EQ(rows("ability_by_period", {"common", "N", 2}).at(0).at(3), 1);  // the third period is its first
 }
 
 TEST_F(InventedReport, CountsRightAnswers) {
@@ -336,7 +332,7 @@ TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
   std::set<std::string> tables;
   for (const auto& [name, table] : document.at("tables").items()) tables.insert(name);
   EXPECT_THAT(tables,
-              ::testing::UnorderedElementsAre("cells", "teams", "completion", "area_cells", "timings", "parameters"));
+              ::testing::UnorderedElementsAre("cells", "teams", "completion", "timings", "parameters"));
   EXPECT_THAT(document.at("notes").dump(), HasSubstr("Only teams were recorded"));
   EXPECT_TRUE(document.contains("beliefs"));  // these are computed again
 }

@@ -1,4 +1,4 @@
-// Who needs what first, a person after the other; then the components, and how to read it.
+// Who needs what first, a person after the other; the components, of many people first; and how to read it.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Patterns } from '../shared/board/glyphs';
@@ -31,6 +31,7 @@ export function Page({ audit }: { audit: Audit }): JSX.Element {
       </header>
       <h1>Who understands what</h1>
       <main id="main" tabIndex={-1}>
+        {people.length > kOpen && <Components audit={audit} />}
         <section id="people">
           <h2>Who needs what first</h2>
           <ol>
@@ -39,7 +40,7 @@ export function Page({ audit }: { audit: Audit }): JSX.Element {
             ))}
           </ol>
         </section>
-        <Components audit={audit} />
+        {people.length <= kOpen && <Components audit={audit} />}
         <Method audit={audit} />
         <section id="notices">
           <h2>About this page</h2>

@@ -136,7 +136,7 @@ export interface Report {
     seed?: string | number;
     strategies: string[];
     compositions: string[];
-    factors?: (string | { key: string })[];
+    factors?: string[]; // keys that the study varies: every setting makes a strategy of its own
     finding?: string; // what was found, in one sentence
     summary?: string[]; // what was done, in plain sentences
     answers?: Answer[];
@@ -172,22 +172,6 @@ export function readReport(): Report {
     throw new Error(`this page draws documents of schema ${kSchema}, not ${String(report.schema)}`);
   }
   return report;
-}
-
-// Keys that a study varies beside strategy and composition.
-export function factorKeys(report: Report): string[] {
-  return (report.overview.factors ?? []).map((factor) => (typeof factor === 'string' ? factor : factor.key));
-}
-
-// Figures show one variant of a study with further factors: the first that the table has.
-export function firstVariant(table: Table, factors: string[]): Table {
-  const first = table.rows[0];
-  const places = factors.map((key) => table.columns.indexOf(key)).filter((place) => place >= 0);
-  if (!first || places.length === 0) return table;
-  return {
-    columns: table.columns,
-    rows: table.rows.filter((row) => places.every((place) => row[place] === first[place])),
-  };
 }
 
 export function toRows(table: Table): Row[] {

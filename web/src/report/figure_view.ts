@@ -11,7 +11,6 @@ import { tableView } from './table_view';
 import type { Words } from './words';
 
 const kSettleMs = 150; // after the last change of width
-const kTall = 0.5; // height to width of figures that stand beside each other on paper
 
 export interface Saves {
   file: string;
@@ -72,8 +71,6 @@ function keepDrawn(box: HTMLElement, figure: Figure): void {
     drawing = await draw(box, figure.spec(Math.min(width, 980)));
     drawing.view.addEventListener('click', (_, item) => openTeam(item?.datum as { team?: Cell } | undefined));
     box.dataset.drawn = String(width);
-    const { width: across = 1, height: down = 0 } = box.querySelector('svg')?.viewBox.baseVal ?? {};
-    box.closest('figure')?.classList.toggle('tall', down > kTall * across);
   };
   const schedule = (): void => {
     queue = queue.then(redraw).catch((error: unknown) => {

@@ -32,15 +32,6 @@ function kicker({ title, overview }: Report): string {
   return overview.finding ? `${kind} \u00b7 ${title}` : kind;
 }
 
-// A link to a test opens it.
-function openTarget(): void {
-  const target = document.getElementById(location.hash.slice(1));
-  if (target instanceof HTMLDetailsElement) {
-    target.open = true;
-    target.scrollIntoView();
-  }
-}
-
 function show(page: HTMLElement): void {
   const study = new Study(readReport());
   const { report } = study;
@@ -77,8 +68,7 @@ const page = document.getElementById('page');
 if (page) {
   try {
     show(page);
-    window.addEventListener('hashchange', openTarget);
-    openTarget();
+    document.getElementById(location.hash.slice(1))?.scrollIntoView();
   } catch (error) {
     page.replaceChildren(
       el('main', { id: 'main' }, el('h1', {}, 'This report cannot be shown'), el('p', {}, String(error))),

@@ -1,7 +1,7 @@
 // One colour, one shape and one dash per strategy, the same in every figure.
 import { color } from '../shared/theme';
 import type { Report } from './document';
-import type { Words } from './words';
+import { baseOf, type Words } from './words';
 
 const kShapes = ['square', 'circle', 'triangle-up', 'diamond', 'triangle-down', 'cross', 'triangle-right', 'triangle-left'];
 const kDashes = [
@@ -28,7 +28,8 @@ export class Palette {
 
   // Known strategies keep their colours whichever of them a study has; others take what is left.
   constructor(report: Report, words: Words) {
-    const codes = [...new Set([...Object.keys(report.labels?.strategies ?? {}), ...report.overview.strategies])];
+    const all = [...Object.keys(report.labels?.strategies ?? {}), ...report.overview.strategies];
+    const codes = [...new Set([...all.map(baseOf), ...all])];
     const taken = new Set(codes.map((code) => kKnown.indexOf(code)).filter((place) => place >= 0));
     let next = 0;
     for (const code of codes) {

@@ -16,6 +16,20 @@ export interface Grid {
   rowGap?: number; // between rows, px: axis, title of the next panel
 }
 
+const kLetter = 6.8; // px, of titles
+const kLine = 14;
+
+// A title that is wider than its panel, broken at a comma.
+function inLines(title: string, width: number): string | string[] {
+  const lines: string[] = [];
+  for (const part of title.split(/(?<=,) /)) {
+    const longer = `${lines[lines.length - 1] ?? ''} ${part}`;
+    if (lines.length > 0 && longer.length * kLetter <= width) lines[lines.length - 1] = longer;
+    else lines.push(part);
+  }
+  return lines.length === 1 ? title : lines;
+}
+
 const letter = (i: number): string => String.fromCharCode(97 + (i % 26));
 
 export function panels(count: number, width: number, grid: Grid, make: (i: number, place: Place) => Spec): Spec {
@@ -25,16 +39,20 @@ export function panels(count: number, width: number, grid: Grid, make: (i: numbe
   const columns = Math.ceil(count / Math.ceil(count / most)); // 4 in 3 columns would leave one alone
   const inner = Math.floor((width - grid.left - 16 - gap * (columns - 1)) / columns);
   const concat: Json[] = [];
+  let deepest = 1; // lines of a title
   for (let i = 0; i < count; ++i) {
     const panel = make(i, { firstColumn: i % columns === 0, lastRow: i + columns >= count, width: Math.max(inner, 80) });
     const isLettered = typeof panel.title === 'string' && (count > 1 || grid.first !== undefined);
-    concat.push(isLettered ? { ...panel, title: `${letter((grid.first ?? 0) + i)}  ${String(panel.title)}` } : panel);
+    const title = isLettered ? `${letter((grid.first ?? 0) + i)}  ${String(panel.title)}` : panel.title;
+    const lines = typeof title === 'string' ? inLines(title, inner) : title;
+    if (Array.isArray(lines)) deepest = Math.max(deepest, lines.length);
+    concat.push({ ...panel, title: lines });
   }
   return {
     $schema: 'https://vega.github.io/schema/vega-lite/v5.json',
     concat,
     columns,
-    spacing: { row: grid.rowGap ?? 48, column: gap },
+    spacing: { row: (grid.rowGap ?? 48) + kLine * (deepest - 1), column: gap },
     bounds: 'flush',
   };
 }

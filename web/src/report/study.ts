@@ -1,7 +1,12 @@
 // What every section and figure is made from.
-import { type Report, type Row, type Table, factorKeys, firstVariant, toRows } from './document';
+import { type Report, type Row, type Table, toRows } from './document';
 import { type Look, Palette } from './palette';
-import { Words } from './words';
+import { baseOf, Words } from './words';
+
+interface Facet {
+  title: string;
+  rows: Row[];
+}
 
 interface Panels {
   looks: Look[];
@@ -18,14 +23,14 @@ export class Study {
   constructor(readonly report: Report) {
     this.words = new Words(report);
     this.palette = new Palette(report, this.words);
-    this.factors = factorKeys(report);
+    this.factors = report.overview.factors ?? [];
     this.hasFixedPeriods = report.overview.fixed_periods === true;
   }
 
   // Null where the run's recording level does not give the table, or it has no rows.
   table(name: string): Table | null {
     const table = this.report.tables[name];
-    return table && table.rows.length > 0 ? firstVariant(table, this.factors) : null;
+    return table && table.rows.length > 0 ? table : null;
   }
 
   // The distinct codes of a column in the order of first appearance, or in `order` where given.
@@ -46,15 +51,32 @@ export class Study {
     return this.palette.looksOf(rows.map((row) => String(row.strategy)));
   }
 
-  // Of a figure with one panel per code of a column, a row per strategy in each.
+  // Strategies without the setting of what the study varies, which stands beside them.
+  rows(table: Table): Row[] {
+    return toRows(table).map((row) => ({ ...row, strategy: baseOf(String(row.strategy)), setting: this.words.setting(row.strategy) }));
+  }
+
+  // A panel per code of a column, and per setting of what the study varies.
+  facets(rows: Row[], column: 'composition' | 'type' | 'kc'): Facet[] {
+    const codes = { composition: this.compositions(rows), type: this.types(rows), kc: this.codes(rows, 'kc') }[column];
+    const name = (code: string): string => (column === 'type' ? this.words.type(code) : column === 'kc' ? componentName(code) : code);
+    const settings = [...new Set(rows.map(({ setting }) => setting ?? ''))];
+    const isOne = codes.length === 1 && settings.length > 1;
+    return codes
+      .flatMap((code) =>
+        settings.map((setting) => ({
+          title: [isOne ? '' : name(code), setting].filter(Boolean).join(', '),
+          rows: rows.filter((row) => String(row[column]) === code && (row.setting ?? '') === setting),
+        })),
+      )
+      .filter((facet) => facet.rows.length > 0);
+  }
+
+  // Of a figure with a row per strategy in every panel.
   panelsBy(column: 'composition' | 'kc', rows: Row[]): Panels {
-    const codes = column === 'kc' ? this.codes(rows, column) : this.compositions(rows);
     return {
       looks: this.looks(rows),
-      panels: codes.map((code) => ({
-        title: column === 'kc' ? componentName(code) : code,
-        means: rows.filter((row) => String(row[column]) === code),
-      })),
+      panels: this.facets(rows, column).map(({ title, rows: means }) => ({ title, means })),
       strategyOf: (row) => this.words.strategy(row.strategy),
     };
   }

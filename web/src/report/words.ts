@@ -48,6 +48,9 @@ export function formatResult(value: Cell | undefined, kind: ResultKind): string 
   return text.replaceAll('-', kMinus);
 }
 
+// "joint [teacher.process_noise=0.5]": joint.
+export const baseOf = (code: string): string => code.replace(/ \[.*$/, '');
+
 const isP = (column: string): boolean => /^p(\b|_)|_p$/i.test(column);
 
 export class Words {
@@ -57,7 +60,8 @@ export class Words {
   private readonly meanings: { strategies?: Record<string, string>; compositions?: Record<string, string> };
 
   constructor(report: Report) {
-    this.strategies = report.labels?.strategies ?? {};
+    this.strategies = { ...report.labels?.strategies };
+    for (const [code, label] of Object.entries(this.strategies)) this.strategies[baseOf(code)] ??= label.split(', ')[0] ?? label;
     this.types = report.labels?.types ?? {};
     this.columns = report.labels?.columns ?? {};
     this.meanings = report.labels?.meanings ?? {};
@@ -66,6 +70,12 @@ export class Words {
   strategy(code: Cell | undefined): string {
     const name = String(code ?? '');
     return this.strategies[name] ?? name;
+  }
+
+  // "process noise 0.5"; empty unless the study varies something.
+  setting(code: Cell | undefined): string {
+    const name = String(code ?? '');
+    return baseOf(name) === name ? '' : this.strategy(name).slice(this.strategy(baseOf(name)).length + 2);
   }
 
   // What a strategy does: "for the member who knows least"; empty if the document does not say it.

@@ -1,15 +1,15 @@
 // The manipulation check: how much do the demonstrations of a strategy convey?
 import type { Cell, Row } from '../document';
-import { type Study, rowsOf } from '../study';
+import type { Study } from '../study';
 import { dots } from './dots';
 import type { Figure } from './figure';
 import { counted, range } from './gist';
 
-function byComponent(study: Study): Figure[] {
+export function areaFigures(study: Study): Figure[] {
   const table = study.table('area');
   if (!table) return [];
   const area = (cell: Cell | undefined): number | null => (typeof cell === 'number' ? Math.exp(cell) : null);
-  const rows = rowsOf(table).map(
+  const rows = study.rows(table).map(
     (row): Row => ({ ...row, area: area(row.mean_log_area), low: area(row.low), high: area(row.high) }),
   );
   const title = 'Area that the demonstrations leave, by strategy and component';
@@ -37,35 +37,3 @@ function byComponent(study: Study): Figure[] {
     },
   ];
 }
-
-function byComposition(study: Study): Figure[] {
-  const table = study.table('area_cells');
-  if (!table) return [];
-  const rows = rowsOf(table);
-  const title = 'Area that the demonstrations leave, by strategy and composition';
-  const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
-  return [
-    {
-      id: 'area-composition',
-      title,
-      reading:
-        `Points further left convey more: mean area over all periods in steradians, with 95\u00a0% t intervals over teams. ${counted(rows, 'n', 'teams in a cell')} ${study.words.letters()}`,
-      gist: `${title}. Mean area in steradians: ${range(rows, 'mean_area_sr', name)}`,
-      table,
-      spec: (width) =>
-        dots(
-          {
-            ...study.panelsBy('composition', rows),
-            mean: 'mean_area_sr',
-            low: 'low',
-            high: 'high',
-            xTitle: 'Mean area (sr)',
-            zero: false,
-          },
-          width,
-        ),
-    },
-  ];
-}
-
-export const areaFigures = (study: Study): Figure[] => [...byComponent(study), ...byComposition(study)];

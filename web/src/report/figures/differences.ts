@@ -3,7 +3,7 @@ import type { Spec } from '../chart';
 import type { Cell, Differences, Row, Table } from '../document';
 import type { Look } from '../palette';
 import type { Study } from '../study';
-import { formatFixed, listOf } from '../words';
+import { baseOf, formatFixed, listOf } from '../words';
 import { dots } from './dots';
 import type { Figure } from './figure';
 import { counted } from './gist';
@@ -39,12 +39,13 @@ function label(study: Study, factor: string, code: string, width: number): strin
 function spec(study: Study, { factor, rows }: Group, outcomes: Differences['outcomes'], width: number): Spec {
   const names = rows.map(({ code }) => label(study, factor, code, width));
   const looks = rows.map(({ code }, i): Look => {
-    const look = factor === 'strategy' ? study.palette.looksOf([code])[0] : undefined;
+    const look = factor === 'strategy' ? study.palette.looksOf([baseOf(code)])[0] : undefined;
     const plain = { color: 'var(--text)', shape: 'circle', dash: [1, 0] };
     return { ...(look ?? plain), label: names[i] ?? code };
   });
-  const panels = outcomes.map(({ name }, k) => ({
-    title: name,
+  const isVaried = (k: number): boolean => rows.some(({ differences: list }) => list[k]?.estimate !== 0); // no constants
+  const panels = outcomes.flatMap((_, k) => (isVaried(k) ? [k] : [])).map((k) => ({
+    title: outcomes[k]?.name ?? '',
     means: rows.map(({ differences: list }, i): Row => {
       const one = list[k];
       return { label: names[i] ?? '', mean: one?.estimate ?? null, low: one?.low ?? null, high: one?.high ?? null };
@@ -58,7 +59,7 @@ function spec(study: Study, { factor, rows }: Group, outcomes: Differences['outc
       mean: 'mean',
       low: 'low',
       high: 'high',
-      xTitle: 'Difference',
+      xTitle: '\u2190 less \u00b7 more \u2192',
       zero: true,
       ownScales: true,
       left: study.factors.length > 0 ? undefined : left,

@@ -46,7 +46,7 @@ function calibrationFigures(study: Study): Figure[] {
 function periodFigures(study: Study): Figure[] {
   const table = study.table('forecasts');
   if (!table) return [];
-  const rows = rowsOf(table);
+  const rows = study.rows(table);
   const title = 'Periods as forecast before the first lesson';
   const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
   return [

@@ -3,7 +3,7 @@ import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import { strategyLegend } from '../legend';
 import { extent, panels, roundTicks, yAxis } from '../panels';
-import { type Study, rowsOf } from '../study';
+import type { Study } from '../study';
 import type { Figure } from './figure';
 
 // What counts: its column, its name on an axis, and in a sentence.
@@ -19,30 +19,31 @@ function knownOf(study: Study): Known {
     : { column: 'knowledge', name: 'Knowledge', reading: 'as much knowledge' };
 }
 
+// Of an interval, what a share can be.
+const asShare = (value: number | null): number | null => (value === null ? null : Math.min(1, Math.max(0, value)));
+
 function spec(study: Study, rows: Row[], known: Known, width: number): Spec {
   const looks = study.looks(rows);
   const labels = looks.map((look) => look.label);
   const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
-  const compositions = study.compositions(rows);
+  const facets = study.facets(rows, 'composition');
   const ends = (name: string): (number | null)[] =>
     rows.flatMap((row) => [num(row[name]), num(row[`${name}_low`]), num(row[`${name}_high`])]);
-  const xs = roundTicks(extent(ends('items')));
-  const ys = roundTicks(extent(ends(known.column)));
+  const xs = roundTicks(extent(ends('items').map((value) => value && Math.max(0, value))));
+  const ys = roundTicks(extent(ends(known.column).map(asShare)));
   const grid = { left: 52, min: 190, max: 2, gap: 22, rowGap: 54 };
-  const concat = panels(compositions.length, width, grid, (i, place) => {
-    const values = rows
-      .filter((row) => row.composition === compositions[i])
-      .map((row) => ({
+  const concat = panels(facets.length, width, grid, (i, place) => {
+    const values = (facets[i]?.rows ?? []).map((row) => ({
         strategy: study.words.strategy(row.strategy),
         items: num(row.items),
-        itemsLow: num(row.items_low),
+        itemsLow: Math.max(0, num(row.items_low) ?? NaN),
         itemsHigh: num(row.items_high),
         known: num(row[known.column]),
-        knownLow: num(row[`${known.column}_low`]),
-        knownHigh: num(row[`${known.column}_high`]),
+        knownLow: asShare(num(row[`${known.column}_low`])),
+        knownHigh: asShare(num(row[`${known.column}_high`])),
         front: row.on_front === true,
         share: num(row.front_share),
-      }));
+    }));
     const x: Spec = {
       type: 'quantitative',
       scale: { domain: xs.domain, zero: false, nice: false },
@@ -77,7 +78,7 @@ function spec(study: Study, rows: Row[], known: Known, width: number): Spec {
       { field: 'share', title: 'On the front, share of samples', format: '.2~r' },
     ];
     return {
-      title: compositions[i] ?? '',
+      title: facets[i]?.title ?? '',
       data: { values },
       width: place.width,
       height: 190,
@@ -110,13 +111,11 @@ function spec(study: Study, rows: Row[], known: Known, width: number): Spec {
 export function frontFigures(study: Study): Figure[] {
   const table = study.table('efficiency');
   if (!table) return [];
-  const rows = rowsOf(table);
+  const rows = study.rows(table);
   const known = knownOf(study);
   const title = `Efficiency: ${known.name.toLowerCase()} and items shown`;
-  const fronts = study.compositions(rows).map((code) => {
-    const names = rows
-      .filter((row) => row.composition === code && row.on_front === true)
-      .map((row) => study.words.strategy(row.strategy));
+  const fronts = study.facets(rows, 'composition').map(({ title: code, rows: own }) => {
+    const names = own.filter((row) => row.on_front === true).map((row) => study.words.strategy(row.strategy));
     return `${code}: ${names.join(', ')}`;
   });
   return [

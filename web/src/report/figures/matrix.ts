@@ -60,7 +60,6 @@ function block(matrix: Matrix, outcome: Outcome, rows: Row[], columns: string[],
         value,
         standing,
         text: value === null ? '' : value.toFixed(digits),
-        weight: standing ? 'bold' : 'normal',
         bad: value === null || differ.size === 0 ? 0 : bad(value),
       };
     });
@@ -96,15 +95,7 @@ function block(matrix: Matrix, outcome: Outcome, rows: Row[], columns: string[],
     encoding: place,
     layer: [
       { mark: { type: 'rect', fill: 'var(--link)' }, encoding: { fillOpacity: opacity, tooltip } },
-      {
-        transform: [{ filter: "datum.standing === 'best'" }],
-        mark: { type: 'rect', fill: null, stroke: 'var(--text)', strokeWidth: 1.5 },
-      },
-      ...['normal', 'bold'].map((weight): Spec => ({
-        transform: [{ filter: `datum.weight === '${weight}'` }],
-        mark: { type: 'text', fontSize: 11.5, fontWeight: weight },
-        encoding: { text: { field: 'text' } },
-      })),
+      { mark: { type: 'text', fontSize: 11.5 }, encoding: { text: { field: 'text' } } },
     ],
   };
 }
@@ -152,7 +143,7 @@ export function matrixFigures(study: Study): Figure[] {
     return {
       id: `matrix-${i + 1}`,
       title,
-      reading: `Means over teams at the end of teaching; the stronger the colour, the worse${scale}. In rows where some are clearly worse than the best, a frame marks the best, and bold those that are not: the 95\u00a0% interval of the difference includes 0.${sums ? ' Periods of the baseline are summed over members.' : ''} ${counted(rows, 'teams', 'teams in a cell')} ${study.words.letters()}`,
+      reading: `Means over teams at the end of teaching; the stronger the colour, the worse${scale}. Where nothing is clearly worse than the best of its panel, there is no colour.${sums ? ' Periods of the baseline are summed over members.' : ''} ${counted(rows, 'teams', 'teams in a cell')} ${study.words.letters()}`,
       gist: `${title}. ${matrix.outcomes.map((outcome) => bestOf(rows, matrix.factors, outcome)).join(' ')}`,
       table: matrix.table,
       spec: (width) => spec(matrix, rows, width),

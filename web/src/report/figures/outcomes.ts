@@ -2,7 +2,7 @@
 import type { Spec } from '../chart';
 import type { Outcome, Row } from '../document';
 import { stacked } from '../panels';
-import { type Study, rowsOf } from '../study';
+import type { Study } from '../study';
 import { dots, type DotsOptions } from './dots';
 import type { Figure } from './figure';
 import { counted, range } from './gist';
@@ -11,10 +11,10 @@ import { counted, range } from './gist';
 export function outcomeFigures(study: Study, ofExam: boolean): Figure[] {
   const cells = study.table('cells');
   if (!cells) return [];
-  const means = rowsOf(cells);
+  const means = study.rows(cells);
   const teams = study.table('teams');
-  const points = teams ? rowsOf(teams) : [];
-  const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
+  const points = teams ? study.rows(teams) : [];
+  const name = (row: Row): string => [study.words.strategy(row.strategy), row.composition, row.setting].filter(Boolean).join(', ');
   const n = counted(means, 'teams', 'teams in a cell');
   const isVaried = (column: string): boolean => column !== 'periods' || !study.hasFixedPeriods;
   const present = study.report.outcomes.filter(
@@ -50,7 +50,7 @@ function spec(
   points: Row[],
   width: number,
 ): Spec {
-  const compositions = study.compositions(means);
+  const facets = study.facets(means, 'composition');
   const common = {
     mean: `${column}_mean`,
     low: `${column}_low`,
@@ -65,11 +65,10 @@ function spec(
     ...common,
     first,
     looks: study.looks(rows),
-    panels: compositions.map((code) => ({
-      title: code,
-      means: rows.filter((row) => row.composition === code),
-      points: raw.filter((row) => row.composition === code),
-    })),
+    panels: facets.map(({ title, rows: [of] }) => {
+      const isOf = (row: Row): boolean => row.composition === of?.composition && row.setting === of?.setting;
+      return { title, means: rows.filter(isOf), points: raw.filter(isOf) };
+    }),
     strategyOf: (row) => study.words.strategy(row.strategy),
   });
   if (column !== 'periods' || !hasTwoScales(means)) return dots(part(means, points), width);
@@ -82,10 +81,10 @@ function spec(
     dots(
       {
         ...common,
-        first: compositions.length,
-        looks: compositions.map((code) => ({ ...(look ?? plain), label: code })),
+        first: facets.length,
+        looks: facets.map(({ title }) => ({ ...(look ?? plain), label: title })),
         panels: [{ title: study.words.strategy('baseline'), means: baseline, points: points.filter(isBaseline) }],
-        strategyOf: (row) => String(row.composition),
+        strategyOf: (row) => facets.find(({ rows }) => rows.some((one) => one.composition === row.composition && one.setting === row.setting))?.title ?? '',
       },
       width,
     ),

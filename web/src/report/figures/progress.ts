@@ -1,6 +1,6 @@
-// What changes from period to period: completion, knowledge, ability and right answers.
+// What changes from period to period: completion, knowledge and right answers.
 import type { Row, Table } from '../document';
-import { type Study, componentName, rowsOf } from '../study';
+import { type Study, rowsOf } from '../study';
 import { type CurvesOptions, curves } from './curves';
 import type { Figure } from './figure';
 import { counted, ends } from './gist';
@@ -15,7 +15,7 @@ function figure(
   shape: Shape,
   groups: (rows: Row[]) => CurvesOptions['panels'],
 ): Figure {
-  const rows = rowsOf(table);
+  const rows = study.rows(table);
   const list = groups(rows);
   const strategyOf = (row: Row): string => study.words.strategy(row.strategy);
   const gists = list.map(({ title, rows: own }) => `${title}: ${ends(own, shape.x, shape.y, strategyOf)}`);
@@ -49,18 +49,10 @@ export function completionFigures(study: Study): Figure[] {
         yDomain: [0, 1],
         maxColumns: 2,
       },
-      (rows) =>
-        study.compositions(rows).map((code) => ({ title: code, rows: rows.filter((row) => row.composition === code) })),
+      (rows) => study.facets(rows, 'composition'),
     ),
   ];
 }
-
-const byType =
-  (study: Study) =>
-  (rows: Row[]): CurvesOptions['panels'] =>
-    study
-      .types(rows)
-      .map((type) => ({ title: study.words.type(type), rows: rows.filter((row) => String(row.type) === type) }));
 
 export function knowledgeFigures(study: Study): Figure[] {
   const table = study.table('knowledge_by_period');
@@ -76,35 +68,7 @@ export function knowledgeFigures(study: Study): Figure[] {
           `Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% t intervals at some periods. People who are no longer taught count with what they knew last. Lines end where too few people are still taught. ${counted(rowsOf(table), 'people', 'people')}`,
       },
       { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false, possible: [0, 1] },
-      byType(study),
-    ),
-  ];
-}
-
-export function abilityFigures(study: Study): Figure[] {
-  const table = study.table('ability_by_period');
-  if (!table) return [];
-  return [
-    figure(
-      study,
-      table,
-      {
-        id: 'ability-periods',
-        title: 'Learning ability over the periods of a component',
-        reading:
-          `Only people who are still being taught the component. Ability while watching, means with 95\u00a0% t intervals at some periods; it is reset at the start of every component and rises with feedback. ${counted(rowsOf(table), 'people', 'people')}`,
-      },
-      { x: 'period_of_kc', y: 'mean', xTitle: 'Period of the component', yTitle: 'Ability', step: false },
-      (rows) =>
-        study
-          .types(rows)
-          .flatMap((type) =>
-            study.codes(rows, 'kc').map((kc) => ({
-              title: `${study.words.type(type)}, ${componentName(kc).toLowerCase()}`,
-              rows: rows.filter((row) => String(row.type) === type && String(row.kc) === kc),
-            })),
-          )
-          .filter((panel) => panel.rows.length > 0),
+      (rows) => study.facets(rows, 'type'),
     ),
   ];
 }
@@ -123,7 +87,7 @@ export function correctFigures(study: Study): Figure[] {
           `Only teams that are still being taught: later periods include only those that needed longest. Share of test answers that were right, with Wilson\u2019s 95\u00a0% intervals at some periods. ${counted(rowsOf(table), 'answers', 'answers')}`,
       },
       { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false, possible: [0, 1] },
-      byType(study),
+      (rows) => study.facets(rows, 'type'),
     ),
   ];
 }

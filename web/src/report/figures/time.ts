@@ -11,29 +11,27 @@ import { range } from './gist';
 const shades = (count: number): string[] => Array.from({ length: count }, (_, i) => color(`k${i % 6}`));
 
 function teachingSpec(study: Study, rows: Row[], width: number): Spec {
-  const compositions = study.compositions(rows);
+  const facets = study.facets(rows, 'composition');
   const components = study.codes(rows, 'kc');
   const strategies = study.looks(rows).map((look) => look.label);
   const totals = new Map<string, number>();
   for (const row of rows) {
-    const key = `${String(row.strategy)} ${String(row.composition)}`;
+    const key = `${String(row.strategy)} ${String(row.composition)} ${String(row.setting)}`;
     totals.set(key, (totals.get(key) ?? 0) + (num(row.mean_periods) ?? 0));
   }
   const domain = extent([...totals.values()], true);
   const names = components.map(componentName);
-  return panels(compositions.length, width, { left: 104, min: 124, gap: 26 }, (i, place) => ({
-    title: compositions[i] ?? '',
+  return panels(facets.length, width, { left: 104, min: 124, gap: 26 }, (i, place) => ({
+    title: facets[i]?.title ?? '',
     width: place.width,
     height: strategies.length * 26,
     data: {
-      values: rows
-        .filter((row) => row.composition === compositions[i])
-        .map((row) => ({
-          strategy: study.words.strategy(row.strategy),
-          component: componentName(String(row.kc)),
-          order: components.indexOf(String(row.kc)),
-          periods: num(row.mean_periods),
-        })),
+      values: (facets[i]?.rows ?? []).map((row) => ({
+        strategy: study.words.strategy(row.strategy),
+        component: componentName(String(row.kc)),
+        order: components.indexOf(String(row.kc)),
+        periods: num(row.mean_periods),
+      })),
     },
     mark: { type: 'bar', stroke: color('ground'), strokeWidth: 1.5 },
     encoding: {
@@ -86,7 +84,7 @@ function teachingSpec(study: Study, rows: Row[], width: number): Spec {
 export function timeFigures(study: Study): Figure[] {
   const table = study.table('periods_by_component');
   if (!table) return [];
-  const rows = rowsOf(table);
+  const rows = study.rows(table);
   const title = 'Where teaching time goes';
   return [
     {

@@ -1,5 +1,5 @@
 // The sections that hold figures, in the order of the page; figures are numbered through.
-import { abilityFigures, completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
+import { completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
 import { areaFigures } from '../figures/area';
 import { differencesFigures } from '../figures/differences';
 import type { Figure } from '../figures/figure';
@@ -7,7 +7,6 @@ import { estimateFigures } from '../figures/estimates';
 import { examCurveFigures } from '../figures/exam';
 import { forecastFigures } from '../figures/forecasts';
 import { frontFigures } from '../figures/front';
-import { interactionFigures } from '../figures/interaction';
 import { matrixFigures } from '../figures/matrix';
 import { outcomeFigures } from '../figures/outcomes';
 import { timeFigures } from '../figures/time';
@@ -21,11 +20,7 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
   {
     id: 'outcomes',
     title: 'Periods and knowledge',
-    figures: (study) => [
-      ...differencesFigures(study).slice(1),
-      ...outcomeFigures(study, false),
-      ...interactionFigures(study),
-    ],
+    figures: (study) => [...differencesFigures(study).slice(1), ...outcomeFigures(study, false)],
   },
   {
     id: 'exam',
@@ -36,12 +31,7 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
   {
     id: 'progress',
     title: 'Progress over periods',
-    figures: (study) => [
-      ...completionFigures(study),
-      ...knowledgeFigures(study),
-      ...abilityFigures(study),
-      ...correctFigures(study),
-    ],
+    figures: (study) => [...completionFigures(study), ...knowledgeFigures(study), ...correctFigures(study)],
   },
   { id: 'forecasts', title: 'Forecasts', figures: forecastFigures },
   { id: 'estimates', title: 'What the teacher can tell', figures: estimateFigures },

@@ -56,40 +56,13 @@ function testRows(finding: Finding): HTMLElement[] {
     });
 }
 
-function overview(findings: Finding[]): HTMLElement {
-  const caption = 'All tests';
-  const groups = findings
-    .map((finding) => ({ finding, rows: testRows(finding) }))
-    .filter(({ rows }) => rows.length > 0)
-    .map(({ finding, rows }) =>
-      el(
-        'tbody',
-        {},
-        el(
-          'tr',
-          { class: 'group' },
-          el('th', { scope: 'rowgroup', colspan: 4 }, el('a', { href: `#finding-${finding.id}` }, finding.title)),
-        ),
-        ...rows,
-      ),
-    );
-  const heads = ['Test', 'Statistic', 'Effect [95\u00a0% interval]', 'p'];
-  return el(
-    'div',
-    { class: 'scroll tests', tabindex: 0, role: 'region', 'aria-label': `Table: ${caption}` },
-    el(
-      'table',
-      {},
-      el('caption', {}, caption),
-      el('thead', {}, el('tr', {}, ...heads.map((head) => el('th', { scope: 'col' }, head)))),
-      ...groups,
-    ),
-  );
-}
-
 const note = (text: string): HTMLElement => el('p', { class: 'warning' }, el('strong', {}, 'Note: '), text);
 
-function detail(one: Finding, repeated: Set<string>): HTMLElement {
+const kHeads = ['Test', 'Statistic', 'Effect [95\u00a0% interval]', 'p'];
+
+// The tests of a finding; the rest opens below them.
+function view(one: Finding, repeated: Set<string>): HTMLElement {
+  const rows = testRows(one);
   const content = (): HTMLElement =>
     el(
       'div',
@@ -101,10 +74,20 @@ function detail(one: Finding, repeated: Set<string>): HTMLElement {
       one.results ? copyButton('text for a paper', one.results) : null,
       ...(one.tables ?? []).map(resultTableView),
     );
-  const box = lazyDetails(one.title.replace(/^./, (letter) => letter.toUpperCase()), content);
-  box.id = `finding-${one.id}`;
-  box.classList.add('finding');
-  return box;
+  const title = one.title.replace(/^./, (letter) => letter.toUpperCase());
+  return el(
+    'div',
+    { class: 'finding', id: `finding-${one.id}` },
+    el('h3', {}, title),
+    rows.length === 0
+      ? el('p', {}, one.sentence)
+      : el(
+          'div',
+          { class: 'scroll tests', tabindex: 0, role: 'region', 'aria-label': `Tests: ${title}` },
+          el('table', {}, el('caption', { class: 'visually-hidden' }, title), el('thead', {}, el('tr', {}, ...kHeads.map((head, i) => el('th', { scope: 'col', class: i === 3 ? 'number' : undefined }, head)))), el('tbody', {}, ...rows)),
+        ),
+    lazyDetails('What was asked, text for a paper, all tables', content),
+  );
 }
 
 export function findingsSection(study: Study): Section | null {
@@ -116,14 +99,13 @@ export function findingsSection(study: Study): Section | null {
     id: 'findings',
     title: 'Statistical tests',
     content: [
-      overview(findings),
       el(
         'p',
         { class: 'about' },
-        'p: two-sided; * corrected for the number of tests of its table. \u03b7\u00b2p: partial eta squared, with its 90\u00a0% interval. Rows in bold have p below 0.05. Every test opens below: what was asked, the text for a paper, all tables.',
+        'p: two-sided; * corrected for the number of tests of its table. \u03b7\u00b2p: partial eta squared, with its 90\u00a0% interval. Rows in bold have p below 0.05.',
       ),
       ...[...repeated].map(note),
-      ...findings.map((one) => detail(one, repeated)),
+      ...findings.map((one) => view(one, repeated)),
     ],
   };
 }

@@ -4,7 +4,7 @@ import { el } from '../../shared/dom';
 import { differencesFigures } from '../figures/differences';
 import { figureView } from '../figure_view';
 import type { Study } from '../study';
-import { formatFixed, formatP, listOf } from '../words';
+import { formatFixed, formatP } from '../words';
 import type { FigureNumbers } from './figures';
 import type { Section } from './section';
 
@@ -95,12 +95,7 @@ export function summarySection(study: Study, numbers: FigureNumbers): Section {
 }
 
 export function notesSection(study: Study): Section | null {
-  const notes = [...(study.report.notes ?? [])];
-  if (study.factors.length > 0) {
-    notes.push(
-      `The study also varies ${listOf(study.factors)}; where a table tells its variants apart, figures show the first one.`,
-    );
-  }
+  const notes = study.report.notes ?? [];
   if (notes.length === 0) return null;
   return {
     id: 'notes',

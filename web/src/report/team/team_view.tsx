@@ -6,8 +6,8 @@ import { Legend } from '../../shared/board/legend';
 import { closedAt, played } from '../../shared/board/repeats';
 import { worldText } from '../../shared/board/types';
 import type { Words } from '../words';
-import { BracketChart, KnowledgeChart } from './charts';
-import { bracketsOf, type Lessons, type PeriodRow, type TeamRow } from './lessons';
+import { amountText, KnowledgeChart } from './charts';
+import { bracketsOf, type Bracket, type Lessons, type PeriodRow, type TeamRow } from './lessons';
 
 const kWide = 16; // columns; larger maps get more room
 
@@ -66,9 +66,11 @@ function SessionView({ lessons, legend, periods, names, title }: SessionProps): 
       {title && <h4>{title}</h4>}
       <div class="smalls">
         <KnowledgeChart rows={periods.map((row) => row[6])} names={names} periods={numbers} />
-        {bracketsOf(lessons, periods).map((bracket) => (
-          <BracketChart bracket={bracket} periods={numbers} />
-        ))}
+        <ul class="says">
+          {bracketsOf(lessons, periods).map((bracket) => (
+            <li>{narrowed(bracket, numbers)}</li>
+          ))}
+        </ul>
       </div>
       <ol class="periods">
         {periods.map((row) => (
@@ -77,6 +79,13 @@ function SessionView({ lessons, legend, periods, names, title }: SessionProps): 
       </ol>
     </div>
   );
+}
+
+// "rubble costs 2 to 4 steps, as shown by period 3".
+function narrowed({ feature, unit, isCost, ends }: Bracket, periods: number[]): string {
+  const texts = ends.map((end) => amountText(end, unit));
+  const last = texts[texts.length - 1] ?? '';
+  return `${feature} ${isCost ? 'costs' : 'is worth'} ${last}, as shown by period ${periods[texts.indexOf(last)]}`;
 }
 
 function Period({ lessons, legend, row, names }: Omit<SessionProps, 'periods' | 'title'> & { row: PeriodRow }): JSX.Element {
