@@ -1,14 +1,30 @@
 # The documentation as a site that works offline, with search: target kith_site, build/PRESET/site/docs/README.html.
+# Doxygen adds a reference of the public headers, site/api/index.html.
 find_program(KITH_SPHINX sphinx-build REQUIRED DOC "Sphinx with MyST (python3-sphinx, python3-myst-parser)")
+find_program(KITH_DOXYGEN doxygen DOC "Doxygen, for the reference of the libraries")
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/site/*)
 set(site ${PROJECT_BINARY_DIR}/site)
+set(reference)
+set(tags)
+if(KITH_DOXYGEN)
+  file(GLOB header_folders ${PROJECT_SOURCE_DIR}/libs/*/include)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/libs/*/include/*.hpp)
+  list(TRANSFORM header_folders REPLACE "(.+)" "\"\\1\"")
+  list(JOIN header_folders " " header_folders)
+  configure_file(${PROJECT_SOURCE_DIR}/docs/site/Doxyfile.in ${PROJECT_BINARY_DIR}/Doxyfile @ONLY)
+  set(reference ${site}/api/index.html)
+  set(tags -t api)
+  add_custom_command(OUTPUT ${reference}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${site} COMMAND ${KITH_DOXYGEN} ${PROJECT_BINARY_DIR}/Doxyfile
+    DEPENDS ${headers} ${PROJECT_BINARY_DIR}/Doxyfile COMMENT "Writing the reference of the libraries" VERBATIM)
+endif()
 add_custom_command(OUTPUT ${site}/searchindex.js
-  COMMAND ${KITH_SPHINX} -q -W --keep-going -E -b html -d ${PROJECT_BINARY_DIR}/site-cache -c ${PROJECT_SOURCE_DIR}/docs/site
-    ${PROJECT_SOURCE_DIR} ${site}
+  COMMAND ${KITH_SPHINX} -q -W --keep-going -E -b html ${tags} -d ${PROJECT_BINARY_DIR}/site-cache
+    -c ${PROJECT_SOURCE_DIR}/docs/site ${PROJECT_SOURCE_DIR} ${site}
   DEPENDS ${pages} ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
     ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
   COMMENT "Writing the documentation site" VERBATIM)
-add_custom_target(kith_site ALL DEPENDS ${site}/searchindex.js)
+add_custom_target(kith_site ALL DEPENDS ${site}/searchindex.js ${reference})
 if(KITH_INSTALL)
   install(DIRECTORY ${site}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT program
     PATTERN objects.inv EXCLUDE PATTERN .buildinfo EXCLUDE)

@@ -46,5 +46,13 @@ def add_contents(app, name, source):
     source[0] += toctree("Decisions", ["adr/*"])
 
 
+def add_reference(app, name, source):
+    """Where Doxygen has written the reference of the libraries, their page leads to it."""
+    if name == "docs/library" and tags.has("api"):
+        link = 'The <a href="../api/index.html">reference</a> has every class and function.'
+        source[0] = source[0].replace("\n## ", f"\n{link}\n\n## ", 1)
+
+
 def setup(app):
     app.connect("source-read", add_contents)
+    app.connect("source-read", add_reference)
