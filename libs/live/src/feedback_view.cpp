@@ -153,7 +153,6 @@ view::Judged judged_view(const RoomParts& room, const Test& test, bool right, co
     auto path = path_json(domain, world, mine);
     judged.at<"mine">() = path["frames"];
     judged.at<"mine_repeats_from">() = path.value("repeats_from", Json{});
-    judged.at<"mine_repeats_text">() = path.value("repeats_text", Json{});
   }
   auto path = path_json(domain, world, robot);
   judged.at<"robot">() = path["frames"];

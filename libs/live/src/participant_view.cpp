@@ -71,13 +71,11 @@ view::End end_of(const LiveStudy& study, const std::string& reason, const std::s
 view::Participant empty_page(const LiveStudy& study, std::string stage, std::int64_t now_us) {
   const auto& group = study.group();
   view::Participant page;
-  page.at<"v">() = 1;
   page.at<"stage">() = std::move(stage);
   page.at<"lang">() = study.language.code;
-  page.at<"dir">() = study.language.direction;
   page.at<"study">() = {group.title, group.story, group.goal, {}};
   if (const auto& update = study.update) {
-    page.at<"study">().at<"update">() = {update->text, update->now, update->still, update->news};
+    page.at<"study">().at<"update">() = {update->now, update->still, update->news};
   }
   page.at<"server_ms">() = in_ms(now_us);
   return page;
@@ -91,8 +89,8 @@ class ParticipantPage {
   [[nodiscard]] view::Participant page() const {
     const auto stage = stage_of_seat(room_, seat_);
     auto page = empty_page(room_.study, stage, now_us_);
-    page.at<"me">() = {number_ + 1, label()};
-    page.at<"group">() = {size(), num_active()};
+    page.at<"me">() = {label()};
+    page.at<"group">() = {size()};
     page.at<"notices">() = notices();
     if (is_running(state_) && seat_.status != SeatStatus::kGone && seat_.member) {
       page.at<"pause">() = pause();
@@ -112,11 +110,6 @@ class ParticipantPage {
     std::size_t largest = 0;
     for (const auto& cell : live_cells(room_.study)) largest = std::max(largest, cell.composition.size());
     return largest;
-  }
-  // People and stand-ins alike: which is which is none of the page's business.
-  [[nodiscard]] std::size_t num_active() const {
-    return static_cast<std::size_t>(std::count_if(state_.members.begin(), state_.members.end(),
-                                                  [&](const LiveMember& m) { return is_taken(state_, m); }));
   }
 
   [[nodiscard]] std::vector<view::Notice> notices() const {
@@ -151,10 +144,8 @@ class ParticipantPage {
     const auto rounds = state_.session->periods();
     const bool between = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
     // While feedback is read the next lesson may be there already: it must not show.
-    const double done =
-        components.empty() ? 0.0 : static_cast<double>(shown_over(over)) / static_cast<double>(components.size());
     const auto round = rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u);
-    return {part(over, components.size()), round, state_.session->options().max_periods, components.size(), done};
+    return {part(over, components.size()), round, state_.session->options().max_periods, components.size()};
   }
   // That of the lesson that is being taught. Feedback belongs to it, too, also if the part is finished now.
   [[nodiscard]] std::size_t part(std::ptrdiff_t over, std::size_t parts) const {
@@ -164,12 +155,6 @@ class ParticipantPage {
     }
     if (rules_of(state_.phase).has_open_lesson) return session.lesson().component + 1;
     return std::min(static_cast<std::size_t>(over) + 1, parts);
-  }
-  [[nodiscard]] std::ptrdiff_t shown_over(std::ptrdiff_t over) const {
-    if (state_.phase != RoomPhase::kFeedback || !state_.before) return over;
-    const auto components = state_.before->components();
-    return std::count_if(components.begin(), components.end(),
-                         [](ComponentStatus status) { return status != ComponentStatus::kOpen; });
   }
 
   void add_stage(view::Participant& page) const {
@@ -392,7 +377,7 @@ Json full_view(const LiveStudy& study, const std::string& code, const Json& quer
   LiveSeat nobody;
   nobody.last_page = "full";
   auto page = empty_page(study, "full", now_us);
-  page.at<"me">() = {0, "Learner"};
+  page.at<"me">() = {"Learner"};
   page.at<"end">() = end_of(study, "full", end_text(nobody, {}), study.group().completion.pay_full ? code : "", query);
   return written(page);
 }

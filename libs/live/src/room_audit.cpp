@@ -27,15 +27,13 @@ view::KnownPerson known_person(const Atlas& atlas, const AuditedPerson& person) 
   const auto& audit = person.audit;
   view::KnownPerson known;
   known.at<"seat">() = person.seat;
-  known.at<"member">() = person.member;
   known.at<"tests">() = audit.agreement.tests;
   known.at<"right">() = audit.agreement.right;
   known.at<"knows">() = *audit.knowledge();
   std::size_t boards = 0;
   for (const auto& one : audit.components) {
     const bool is_taught = one.understanding != Understanding::kNotTaught;
-    known.at<"components">().push_back({component_in_words(atlas, one.component),
-                                        std::string{name_of(one.understanding)}, verdict_in_words(one),
+    known.at<"components">().push_back({component_in_words(atlas, one.component), verdict_in_words(one),
                                         is_taught ? std::optional{one.level.mean} : std::nullopt});
     boards = std::max(boards, one.examined);
   }

@@ -49,7 +49,7 @@ class RoomDetailPage {
 
  private:
   [[nodiscard]] view::SessionNow session() const {
-    view::SessionNow now{num_periods(state_), {}, {}, std::string{rules_of(state_.phase).word}};
+    view::SessionNow now{{}, {}, std::string{rules_of(state_.phase).word}};
     const auto all = components_of(state_);
     for (std::size_t i = 0; i < all.size(); ++i) {
       constexpr std::array kWords{"open", "learned", "skipped"};

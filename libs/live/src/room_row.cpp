@@ -24,7 +24,6 @@ class RoomRowPage {
     row.at<"strategy">() = is_list ? "waiting list" : strategy_name(state_);
     row.at<"composition">() = room_.setup.composition;
     row.at<"waiting_list">() = is_list;
-    row.at<"replicate">() = room_.setup.replicate;
     for (std::size_t i = 0; i < state_.seats.size(); ++i) {
       if (state_.seats[i].last_page != "moved") row.at<"seats">().push_back(seat_row(i));
     }
@@ -64,7 +63,6 @@ class RoomRowPage {
     if (seat.member && *seat.member != i) row.at<"member">() = *seat.member + 1;
     row.at<"stage">() = seat.is_person ? stage_of_seat(room_, seat) : std::string{"simulated"};
     if (seat.is_person && seat.since_us > 0) row.at<"stage_since_ms">() = in_ms(stage_since_us(seat));
-    row.at<"why">() = seat.why;
     if (seat.tests > 0) {
       row.at<"right">() = seat.right;
       row.at<"tests">() = seat.tests;

@@ -33,13 +33,13 @@ using Task = Record<"Task", Field<"index", Count>, Field<"of", Count>, Board<"bo
 /// Where a move at the fork could lead: the start in its table of moves, and which costs the robot's move avoids.
 using Chance = Record<"", Field<"world", Text>, Field<"state", Count>, Field<"spared", std::vector<Count>>>;
 
-/// A prediction beside the robot's path. `..._repeats_from` and `..._repeats_text` are those of a Path; `unfinished`:
+/// A prediction beside the robot's path. `..._repeats_from` and `robot_repeats_text` are those of a Path; `unfinished`:
 /// the prediction ends before the robot has finished.
 using Judged = Record<"Judged", Board<"board">, Field<"right", bool>, Field<"mine", Json, "Frame[] | null">,
                       Field<"robot", Json, "Frame[]">, Field<"differs_at", OrNull<Count>>, Field<"why", Texts>,
                       Maybe<"chance", Chance>, IfSet<"mine_repeats_from", Json, "number">,
-                      IfSet<"mine_repeats_text", Json, "string">, IfSet<"robot_repeats_from", Json, "number">,
-                      IfSet<"robot_repeats_text", Json, "string">, Field<"unfinished", bool>, Maybe<"cost", Text>>;
+                      IfSet<"robot_repeats_from", Json, "number">, IfSet<"robot_repeats_text", Json, "string">,
+                      Field<"unfinished", bool>, Maybe<"cost", Text>>;
 
 /// Where the robot goes from `board.start`, and the best path that trades something for something else; `tie`: that is
 /// worth the same to it.
@@ -57,13 +57,12 @@ using Pause = Record<"Pause", Field<"why", Text, "'someone-away' | 'facilitator'
                      Maybe<"until_ms", Ms>, Field<"missing", Count>>;
 
 /// What is new about a robot, and what is not, for those who know it as it was; `news`: all that is new.
-using Update = Record<"Update", Field<"text", Text>, Field<"now", Texts>, Field<"still", Texts>, Field<"news", Texts>>;
+using Update = Record<"Update", Field<"now", Texts>, Field<"still", Texts>, Field<"news", Texts>>;
 using Study = Record<"", Field<"title", Text>, Field<"story", Texts>, Field<"goal", Text>, Maybe<"update", Update>>;
-using Me = Record<"", Field<"seat", Count>, Field<"label", Text>>;
-using Group = Record<"", Field<"size", Count>, Field<"active", Count>>;
+using Me = Record<"", Field<"label", Text>>;
+using Group = Record<"", Field<"size", Count>>;
 using Notice = Record<"", Field<"text", Text>, Field<"at_ms", Ms>>;
-using Progress = Record<"", Field<"part", Count>, Field<"round", Count>, Field<"most", Count>, Field<"parts", Count>,
-                        Field<"done", double>>;
+using Progress = Record<"", Field<"part", Count>, Field<"round", Count>, Field<"most", Count>, Field<"parts", Count>>;
 using Consent = Record<"", Field<"version", Text>, Field<"paragraphs", Texts>, Field<"stores", Json, "Stores">>;
 using Check = Record<"", Board<"board">, Field<"world", Text>, Field<"start", Count>, Field<"parts", Count>,
                      Field<"most", Count>, Field<"ask_name", bool>>;
@@ -97,13 +96,13 @@ using End = Record<"", Field<"reason", Text>, Field<"text", Text>, IfSet<"code",
 /// What a participant sees. At most one of the fields named after stages is set; `predict` is also that of the stages
 /// screening and exam, where `of` is how many there are at most. `limit_ms`: when a time limit ends the stage.
 using Participant = Record<
-    "ParticipantView", Field<"v", Count>,
+    "ParticipantView",
     Field<
         "stage", Text,
         "'consent' | 'check' | 'screening' | 'lobby' | 'watch' | 'predict' | 'discuss' | 'wait' | 'feedback' | 'exam' "
         "| 'questions' | 'debrief' | 'declined' | 'full' | 'ended' | 'replaced'">,
-    Field<"lang", Text>, Field<"dir", Text, "'ltr' | 'rtl'">, Field<"study", Study>, Field<"me", Me>,
-    Field<"group", Group>, Field<"notices", std::vector<Notice>>, Maybe<"pause", Pause>, Maybe<"progress", Progress>,
+    Field<"lang", Text>, Field<"study", Study>, Field<"me", Me>, Field<"group", Group>,
+    Field<"notices", std::vector<Notice>>, Maybe<"pause", Pause>, Maybe<"progress", Progress>,
     Maybe<"consent", Consent>, Maybe<"check", Check>, Maybe<"lobby", Lobby>, Maybe<"watch", Watch>,
     Maybe<"predict", Task>, Maybe<"discuss", Discussion>, Maybe<"wait", Wait>, Maybe<"feedback", Feedback>,
     Maybe<"questions", Questions>, Maybe<"debrief", Debrief>, Maybe<"end", End>, Maybe<"explore", Explore>,
@@ -122,9 +121,9 @@ using SeatRow = Record<
           "'empty' | 'active' | 'finished' | 'left' | 'dropped' | 'replaced' | 'withdrawn' | 'ended' | 'declined' "
           "| 'full' | 'moved' | 'simulated'">,
     Field<"dropped", bool>, Field<"since_ms", Ms>, Maybe<"member", Count>, Field<"stage", Text>,
-    Maybe<"stage_since_ms", Ms>, IfSet<"why", Text>, Maybe<"right", Count>, Maybe<"tests", Count>,
-    Maybe<"estimate", double>, Maybe<"estimate_is_high", bool>, IfSet<"code", Text>, Maybe<"latency_ms", double>,
-    IfSet<"link", Text>, IfSet<"needs_help", Text>>;
+    Maybe<"stage_since_ms", Ms>, Maybe<"right", Count>, Maybe<"tests", Count>, Maybe<"estimate", double>,
+    Maybe<"estimate_is_high", bool>, IfSet<"code", Text>, Maybe<"latency_ms", double>, IfSet<"link", Text>,
+    IfSet<"needs_help", Text>>;
 
 /// What is still to come; `done_within`: the probability that everything is learned after 1, 2, 3 more periods.
 using Forecast = Record<"Forecast", Field<"periods", double>, Field<"minutes_low", double>,
@@ -133,13 +132,13 @@ using Forecast = Record<"Forecast", Field<"periods", double>, Field<"minutes_low
 using RoomRow =
     Record<"RoomRow", Field<"id", Text>, Maybe<"code", Text>,
            Field<"stage", Text, "'lobby' | 'running' | 'paused' | 'questions' | 'ended'">, Field<"strategy", Text>,
-           Field<"composition", Text>, IfSet<"waiting_list", bool>, Field<"replicate", Count>,
-           Field<"seats", std::vector<SeatRow>>, Field<"period", Count>, Field<"component", Count>,
-           Maybe<"started_ms", Ms>, IfSet<"ended", Text>, Maybe<"forecast", Forecast>, Maybe<"next_strategy", Text>>;
+           Field<"composition", Text>, IfSet<"waiting_list", bool>, Field<"seats", std::vector<SeatRow>>,
+           Field<"period", Count>, Field<"component", Count>, Maybe<"started_ms", Ms>, IfSet<"ended", Text>,
+           Maybe<"forecast", Forecast>, Maybe<"next_strategy", Text>>;
 
 using ComponentState = Record<"", Field<"name", Text>, Field<"status", Text, "'open' | 'learned' | 'skipped'">>;
-using SessionNow = Record<"", Field<"period", Count>, Field<"component", OrNull<Count>>,
-                          Field<"components", std::vector<ComponentState>>, Field<"phase", Text>>;
+using SessionNow = Record<"", Field<"component", OrNull<Count>>, Field<"components", std::vector<ComponentState>>,
+                          Field<"phase", Text>>;
 /// A demonstration, with its `gain`, or a test.
 using ShownBoard = Record<"ShownBoard", Board<"board">, ItsPath, Maybe<"gain", double>, Field<"sentences", Texts>>;
 /// What else the teacher could have shown.
@@ -159,17 +158,15 @@ using Truth = Record<"Truth", Field<"weights", std::vector<double>>, Field<"feat
                      Field<"prior", Corners>>;
 using Timer = Record<"Timer", Field<"name", Text>, Field<"since_ms", Ms>, Maybe<"until_ms", Ms>>;
 
-using KnownComponent = Record<"", Field<"name", Text>, Field<"understanding", Text>, Field<"verdict", Text>,
-                              Field<"level", OrNull<double>>>;
+using KnownComponent = Record<"", Field<"name", Text>, Field<"verdict", Text>, Field<"level", OrNull<double>>>;
 /// Who understands what, by a person's answers so far. `exam`: what it came to, once it has begun; `knows`: how often
 /// they are expected to get all of a component right; `thinks`: the misconception that is most probable; `kind`: of
 /// learner.
-using KnownPerson =
-    Record<"PersonAudit", Field<"seat", Count>, Field<"member", Count>, Field<"tests", Count>, Field<"right", Count>,
-           Field<"knows", double>, Field<"components", std::vector<KnownComponent>>,
-           Maybe<"exam", Text, "'understands' | 'does-not-understand' | 'cannot-tell'">, IfSet<"needs_help", Text>,
-           Maybe<"thinks", Text>, Maybe<"probability", double>, Maybe<"kind", Text>,
-           IfSet<"kinds", Json, "Record<string, number>">>;
+using KnownPerson = Record<"PersonAudit", Field<"seat", Count>, Field<"tests", Count>, Field<"right", Count>,
+                           Field<"knows", double>, Field<"components", std::vector<KnownComponent>>,
+                           Maybe<"exam", Text, "'understands' | 'does-not-understand' | 'cannot-tell'">,
+                           IfSet<"needs_help", Text>, Maybe<"thinks", Text>, Maybe<"probability", double>,
+                           Maybe<"kind", Text>, IfSet<"kinds", Json, "Record<string, number>">>;
 
 /// The service adds `people`.
 using RoomDetail = Record<"RoomDetail", Field<"id", Text>, Field<"session", SessionNow>, Maybe<"lesson", LessonNow>,

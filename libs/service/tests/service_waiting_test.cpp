@@ -36,8 +36,8 @@ TEST(WaitingList, SeatsPeopleByWhatTheyCanDoAndKeepsTheirLinks) {
   auto& second = hall.come("second", false);
   for (const auto* page : {&able, &first, &second}) EXPECT_EQ(page->stage(), "watch") << page->name();
   EXPECT_EQ(other_able.stage(), "lobby");
-  EXPECT_EQ(able.view()["me"]["seat"], 3);
-  EXPECT_EQ(first.view()["me"]["seat"], 1);
+  EXPECT_EQ(able.view()["me"]["label"], "Learner C");
+  EXPECT_EQ(first.view()["me"]["label"], "Learner A");
   EXPECT_EQ(hall.stage.service().num_rooms(), 1u);
   EXPECT_EQ(hall.estimates_of("r2"), (std::vector<bool>{false, false, true}));
   EXPECT_EQ(hall.estimates_of("r1"), (std::vector<bool>{true})) << "who has a place is not on the list any more";

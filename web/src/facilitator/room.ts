@@ -14,7 +14,6 @@ export interface SeatRow {
   member?: number;
   stage: string;
   stage_since_ms?: number;
-  why?: string;
   right?: number;
   tests?: number;
   estimate?: number;
@@ -39,7 +38,6 @@ export interface RoomRow {
   strategy: string;
   composition: string;
   waiting_list?: boolean;
-  replicate: number;
   seats: SeatRow[];
   period: number;
   component: number;
@@ -101,11 +99,10 @@ export interface Timer {
 
 export interface PersonAudit {
   seat: number;
-  member: number;
   tests: number;
   right: number;
   knows: number;
-  components: { name: string; understanding: string; verdict: string; level: number | null }[];
+  components: { name: string; verdict: string; level: number | null }[];
   exam?: 'understands' | 'does-not-understand' | 'cannot-tell';
   needs_help?: string;
   thinks?: string;
@@ -116,7 +113,7 @@ export interface PersonAudit {
 
 export interface RoomDetail {
   id: string;
-  session: { period: number; component: number | null; components: { name: string; status: 'open' | 'learned' | 'skipped' }[]; phase: string };
+  session: { component: number | null; components: { name: string; status: 'open' | 'learned' | 'skipped' }[]; phase: string };
   lesson?: LessonNow;
   answers: Answer[];
   curves: { period: number; p_bec: Record<string, number>; right: Record<string, number> }[];

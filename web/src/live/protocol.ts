@@ -8,7 +8,6 @@ import type { Stores } from '../shared/stores';
 export type { Frame };
 
 export interface Update {
-  text: string;
   now: string[];
   still: string[];
   news: string[];
@@ -39,7 +38,6 @@ export interface Judged {
   why: string[];
   chance?: { world: string; state: number; spared: number[] };
   mine_repeats_from?: number;
-  mine_repeats_text?: string;
   robot_repeats_from?: number;
   robot_repeats_text?: string;
   unfinished: boolean;
@@ -61,16 +59,14 @@ export type Explored = {
 } & Partial<{ board: PlayBoard; other: Path | null; differs_at: number | null; tie: boolean; reason?: string; path: Path }>;
 
 export interface ParticipantView {
-  v: number;
   stage: 'consent' | 'check' | 'screening' | 'lobby' | 'watch' | 'predict' | 'discuss' | 'wait' | 'feedback' | 'exam' | 'questions' | 'debrief' | 'declined' | 'full' | 'ended' | 'replaced';
   lang: string;
-  dir: 'ltr' | 'rtl';
   study: { title: string; story: string[]; goal: string; update?: Update };
-  me: { seat: number; label: string };
-  group: { size: number; active: number };
+  me: { label: string };
+  group: { size: number };
   notices: { text: string; at_ms: number }[];
   pause?: Pause;
-  progress?: { part: number; round: number; most: number; parts: number; done: number };
+  progress?: { part: number; round: number; most: number; parts: number };
   consent?: { version: string; paragraphs: string[]; stores: Stores };
   check?: { board: PlayBoard; world: string; start: number; parts: number; most: number; ask_name: boolean };
   lobby?: { present: number; size: number; since_ms: number; leave_after_ms: number; until_ms?: number };

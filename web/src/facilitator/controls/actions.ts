@@ -39,9 +39,10 @@ const none = (): object => ({});
 export function roomActions(room: RoomRow, study: StudyInfo): Action[] {
   const title = roomTitle(room);
   const is = (...stages: RoomRow['stage'][]): boolean => stages.includes(room.stage);
+  const isGroup = !room.waiting_list; // the list takes messages and its end only
   const all: (Action & { when: boolean })[] = [
     {
-      when: is('lobby'),
+      when: isGroup && is('lobby'),
       command: 'start',
       label: 'Start',
       title: `Start ${lower(title)}`,
@@ -97,7 +98,7 @@ export function roomActions(room: RoomRow, study: StudyInfo): Action[] {
       done: 'The message has been sent.',
     },
     {
-      when: is('lobby', 'running', 'paused'),
+      when: isGroup && is('lobby', 'running', 'paused'),
       command: 'strategy',
       label: 'Strategy',
       verb: 'Switch',
@@ -138,6 +139,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
   const who = seatTitle(seat);
   const isPerson = seat.kind === 'person';
   const isOver = room.stage === 'ended';
+  const mayChange = isPerson && !isOver && !room.waiting_list;
   const token = /#t=([A-Za-z0-9_-]+)/.exec(seat.link ?? '')?.[1];
   const isOut = seat.dropped === true || seat.presence === 'left' || seat.stage === 'replaced' || seat.stage === 'ended';
   const all: (Action & { when: boolean })[] = [
@@ -154,7 +156,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       done: 'The message has been sent.',
     },
     {
-      when: isPerson && !isOver && isOut,
+      when: mayChange && isOut,
       command: 'readmit',
       label: 'Re-admit',
       title: `Let ${who} back in`,
@@ -165,7 +167,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       done: `${who} can come back.`,
     },
     {
-      when: isPerson && !isOver && !isOut && token === undefined,
+      when: mayChange && !isOut && token === undefined,
       command: 'readmit',
       label: 'New link',
       title: `Make a new link for ${who}`,
@@ -176,7 +178,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       done: `${who} has a new link.`,
     },
     {
-      when: isPerson && !isOver,
+      when: mayChange,
       command: 'simulate',
       label: 'Replace by a simulated learner',
       title: `Replace ${who} by a simulated learner`,

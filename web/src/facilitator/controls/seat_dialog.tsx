@@ -33,7 +33,7 @@ export function SeatDialog({ study, room, seat, answers, mayAct, onAct, onClose 
         {seat.latency_ms !== undefined && <dt>Latency</dt>}
         {seat.latency_ms !== undefined && <dd>{Math.round(seat.latency_ms)} ms</dd>}
         {seat.estimate !== undefined && <dt>Screening (expected share right)</dt>}
-        {seat.estimate !== undefined && <dd>{estimateText(seat.estimate)}</dd>}
+        {seat.estimate !== undefined && <dd>{`${estimateText(seat.estimate)}${seat.estimate_is_high ? ', counts as high' : ''}`}</dd>}
         <dt>Answers</dt>
         <dd>{own.length === 0 ? 'none yet' : `${right} of ${counted(own.length, 'answer')} right`}</dd>
         {seat.code && <dt>Completion code</dt>}
