@@ -287,24 +287,24 @@ describe('a report', () => {
     await withReport({ width: 1280, dark: false, reducedMotion: true }, async ({ page }) => {
       if (!(await page.$('#figure-beliefs'))) return;
       const label = () => page.getAttribute('#sphere-period', 'aria-valuetext');
-      const path = () => page.$eval('#figure-beliefs svg', (svg) => svg.innerHTML);
+      const path = () => page.$eval('#figure-beliefs .globes svg', (svg) => svg.innerHTML);
       assert.match(await label(), /after period (\d+) of \1/);
       const first = await path();
       await page.focus('#sphere-period');
       await page.keyboard.press('Home');
       assert.match(await label(), /before teaching/);
-      await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, first);
+      await page.waitForFunction((before) => document.querySelector('#figure-beliefs .globes svg').innerHTML !== before, first);
       const second = await path();
       await page.focus('#figure-beliefs .globes');
       await page.keyboard.press('ArrowRight');
       await page.waitForFunction(
-        (before) => document.querySelector('#figure-beliefs svg').innerHTML !== before,
+        (before) => document.querySelector('#figure-beliefs .globes svg').innerHTML !== before,
         second,
       );
       const third = await path();
       await page.focus('#figure-beliefs .turners input >> nth=2');
       await page.keyboard.press('ArrowRight');
-      await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, third);
+      await page.waitForFunction((before) => document.querySelector('#figure-beliefs .globes svg').innerHTML !== before, third);
       assert.equal(
         await page.locator('#figure-beliefs button', { hasText: 'Play' }).count(),
         0,

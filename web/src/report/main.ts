@@ -44,7 +44,7 @@ function show(page: HTMLElement): void {
     findingsSection(study),
     parametersSection(study),
     methodsSection(study),
-    reproduceSection(study, numbers),
+    reproduceSection(study),
     noticesSection(),
   ].filter((section): section is Section => section !== null);
   page.replaceChildren(

@@ -1,8 +1,8 @@
-// Where time goes: teaching time per component, computing time per phase.
+// Where teaching time goes: periods per component.
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import { extent, panels, yAxis } from '../panels';
-import { type Study, componentName, rowsOf } from '../study';
+import { type Study, componentName } from '../study';
 import { color } from '../../shared/theme';
 import type { Figure } from './figure';
 import { range } from './gist';
@@ -98,45 +98,3 @@ export function timeFigures(study: Study): Figure[] {
     },
   ];
 }
-
-function computingSpec(rows: Row[], width: number): Spec {
-  const values = rows.map((row) => ({ phase: String(row.phase), seconds: num(row.seconds) }));
-  const y: Spec = {
-    field: 'phase',
-    type: 'nominal',
-    sort: null,
-    axis: { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelPadding: 6 },
-  };
-  const x: Spec = { field: 'seconds', type: 'quantitative', axis: { title: 'Seconds', domain: false, tickCount: 5 } };
-  return {
-    $schema: 'https://vega.github.io/schema/vega-lite/v5.json',
-    width: Math.max(120, width - 150),
-    height: rows.length * 24,
-    data: { values },
-    layer: [
-      { mark: { type: 'bar', fill: color('k1') }, encoding: { y, x } },
-      {
-        mark: { type: 'text', align: 'left', dx: 5, fontSize: 11, fill: color('text') },
-        encoding: { y, x, text: { field: 'seconds', type: 'quantitative', format: '.3~r' } },
-      },
-    ],
-  };
-}
-
-export function computingFigures(study: Study): Figure[] {
-  const table = study.table('timings');
-  if (!table) return [];
-  const rows = rowsOf(table);
-  const title = 'Where computing time goes';
-  return [
-    {
-      id: 'time-computing',
-      title,
-      reading: 'Seconds per phase of the run, on the machine that ran it.',
-      gist: `${title}. ${rows.map((row) => `${String(row.phase)} ${String(row.seconds)} s`).join(', ')}.`,
-      table,
-      spec: (width) => computingSpec(rows, width),
-    },
-  ];
-}
-

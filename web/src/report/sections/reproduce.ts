@@ -1,11 +1,8 @@
 import { copyButton } from '../copy';
-import { computingFigures } from '../figures/time';
-import { figureView } from '../figure_view';
-import { el } from '../../shared/dom';
+import { el, lazyDetails } from '../../shared/dom';
 import type { Study } from '../study';
 import { tableView } from '../table_view';
 import { listOf } from '../words';
-import type { FigureNumbers } from './figures';
 import type { Section } from './section';
 
 // What the study is.
@@ -42,7 +39,7 @@ function factsList(study: Study): HTMLElement {
 const file = (name: string, text: string): HTMLElement =>
   el('details', {}, el('summary', {}, name), el('pre', { tabindex: 0 }, text), copyButton(name, text));
 
-export function reproduceSection(study: Study, numbers: FigureNumbers): Section | null {
+export function reproduceSection(study: Study): Section | null {
   const about = study.report.reproduce;
   if (!about) return null;
   const content: HTMLElement[] = [factsList(study)];
@@ -67,7 +64,7 @@ export function reproduceSection(study: Study, numbers: FigureNumbers): Section 
       ),
     );
   }
-  const { study: name } = study.report;
-  content.push(...computingFigures(study).map((figure) => figureView(figure, numbers.next(), name, study.words)));
+  const timings = study.table('timings');
+  if (timings) content.push(lazyDetails('Seconds per phase of the run', () => tableView(timings, 'Seconds per phase of the run', study.words)));
   return { id: 'reproduce', title: 'How to reproduce', content };
 }

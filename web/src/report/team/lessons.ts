@@ -1,5 +1,6 @@
 // The lessons of single teams, as the document has them (docs/json.md).
 import type { Board, MapDomain } from '../../shared/board/types';
+import { plural } from '../words';
 
 // [period, component, member or 0 for all, shown boards, conveyed sentences, [[board, "10-"]], knowledge in hundredths]
 export type PeriodRow = [number, number, number, number[], number[], [number, string][], (number | null)[]];
@@ -53,4 +54,11 @@ export function bracketsOf(lessons: Lessons, periods: PeriodRow[]): Bracket[] {
       ? [{ feature, unit: lessons.features[unit] ?? '', isCost, ends }]
       : [];
   });
+}
+
+export function amountText({ low, high }: Bracket['ends'][number], unit: string): string {
+  if (low === null && high === null) return 'not shown yet';
+  if (low === null) return `at most ${plural(high ?? 0, unit)}`;
+  if (high === null) return low <= 0 ? 'something' : `more than ${plural(low, unit)}`;
+  return `${Math.max(0, low)} to ${plural(high, unit)}`;
 }

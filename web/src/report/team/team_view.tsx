@@ -5,9 +5,9 @@ import { Patterns } from '../../shared/board/glyphs';
 import { Legend } from '../../shared/board/legend';
 import { closedAt, played } from '../../shared/board/repeats';
 import { worldText } from '../../shared/board/types';
+import { Lines } from '../../shared/lines';
 import type { Words } from '../words';
-import { amountText, KnowledgeChart } from './charts';
-import { bracketsOf, type Bracket, type Lessons, type PeriodRow, type TeamRow } from './lessons';
+import { amountText, bracketsOf, type Bracket, type Lessons, type PeriodRow, type TeamRow } from './lessons';
 
 const kWide = 16; // columns; larger maps get more room
 
@@ -65,7 +65,20 @@ function SessionView({ lessons, legend, periods, names, title }: SessionProps): 
     <div class="session">
       {title && <h4>{title}</h4>}
       <div class="smalls">
-        <KnowledgeChart rows={periods.map((row) => row[6])} names={names} periods={numbers} />
+        <figure class="small">
+          <Lines
+            what="Knowledge over periods"
+            width={250}
+            height={120}
+            lines={names.map((name, m) => ({
+              name,
+              label: name.replace(/^member (\d+).*/, '$1'),
+              kind: 'own',
+              points: periods.flatMap(({ 0: period, 6: known }) => (typeof known[m] === 'number' ? [{ period, share: known[m] / 100 }] : [])),
+            }))}
+          />
+          <figcaption>Their own knowledge over periods</figcaption>
+        </figure>
         <ul class="says">
           {bracketsOf(lessons, periods).map((bracket) => (
             <li>{narrowed(bracket, numbers)}</li>
