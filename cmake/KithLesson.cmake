@@ -25,7 +25,7 @@ add_custom_command(OUTPUT ${lesson_file_page}
   COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/build.mjs --page file --engine ${engine}
     --modules ${PROJECT_BINARY_DIR}/web --out ${lesson_file_page}
   DEPENDS kith_engine kith_web_packages ${engine}/kith_engine.js ${engine}/kith_engine.wasm
-    ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/pack.mjs ${lesson_sources}
+    ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/bundle.mjs ${PROJECT_SOURCE_DIR}/web/pack.mjs ${lesson_sources}
   COMMENT "Bundling lesson files" VERBATIM)
 if(KITH_BUILD_TESTS AND KITH_CHROMIUM)
   add_test(NAME web.LessonFile COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/tests/file_test.mjs

@@ -51,7 +51,7 @@ function(kith_add_web_pages)
     set(file ${build}/${page}.html)
     add_custom_command(OUTPUT ${file}
       COMMAND ${KITH_NODE} ${source}/build.mjs --page ${page} --modules ${build} --out ${file}
-      DEPENDS kith_web_packages ${stamp} ${source}/build.mjs ${source}/notices.mjs ${sources}
+      DEPENDS kith_web_packages ${stamp} ${source}/build.mjs ${source}/bundle.mjs ${source}/notices.mjs ${sources}
       COMMENT "Bundling the ${page} page" VERBATIM)
     add_custom_target(kith_web_${page} DEPENDS ${file})
     set(${page}_page ${file} PARENT_SCOPE)
@@ -74,7 +74,7 @@ function(kith_add_web_apps)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${source}/src/*)
     add_custom_command(OUTPUT ${build}/${page}/index.html
       COMMAND ${KITH_NODE} ${source}/build_app.mjs --page ${page} --modules ${build} --out ${build}/${page}
-      DEPENDS kith_web_packages ${build}/node_modules/.kith-stamp ${source}/build_app.mjs ${source}/notices.mjs ${sources}
+      DEPENDS kith_web_packages ${build}/node_modules/.kith-stamp ${source}/build_app.mjs ${source}/bundle.mjs ${source}/notices.mjs ${sources}
       COMMENT "Bundling the ${page} page" VERBATIM)
     add_custom_target(kith_web_${page} DEPENDS ${build}/${page}/index.html)
     if(KITH_BUILD_TESTS AND KITH_CHROMIUM AND NOT KITH_SANITIZE AND EXISTS ${source}/tests/${page}_test.mjs)

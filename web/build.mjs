@@ -10,10 +10,9 @@
 // stands, each once.
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { bundlerOf, here, kScript, kTarget } from './bundle.mjs';
 import { collectNotices, noticesHtml } from './notices.mjs';
 import { lzma, textOf } from './pack.mjs';
 
@@ -23,7 +22,6 @@ const MAX_BYTES = 2_000_000;
 // Per page what it is and what it draws, as people without scripts are told.
 const PICTURES = { report: ['report', 'figures'], audit: ['audit', 'boards'], lesson: ['lesson', 'boards'], file: ['lesson', 'boards'] };
 
-const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
   options: {
     out: { type: 'string' },
@@ -39,23 +37,7 @@ if (!values.out || !Object.hasOwn(PICTURES, values.page) || isFile !== (values.e
   process.exit(2);
 }
 const modulesRoot = resolve(values.modules ?? here);
-const { build } = createRequire(join(modulesRoot, 'package.json'))('esbuild');
-
-async function bundle(entry, loaderOptions) {
-  const result = await build({
-    entryPoints: [resolve(here, entry)],
-    absWorkingDir: modulesRoot,
-    nodePaths: [join(modulesRoot, 'node_modules')],
-    bundle: true,
-    minify: true,
-    write: false,
-    metafile: true,
-    charset: 'ascii',
-    legalComments: 'none', // the page has whole licences instead
-    ...loaderOptions,
-  });
-  return { text: result.outputFiles[0].text, metafile: result.metafile };
-}
+const bundle = bundlerOf(modulesRoot);
 
 // Browsers hash what is between the tags after their own normalisation, so what they would change must not occur.
 function checkInlineScript(script) {
@@ -107,14 +89,9 @@ const sheets = {
   },
 };
 
-const kTarget = ['chrome100', 'firefox100', 'safari15.4'];
 const script = await bundle(existsSync(join(here, source, 'main.tsx')) ? `${source}/main.tsx` : `${source}/main.ts`, {
-  jsx: 'automatic',
-  jsxImportSource: 'preact',
-  platform: 'browser',
+  ...kScript,
   plugins: isFile ? [sheets] : [sheets, textsThat((key) => !kOnlyLive.test(key))],
-  format: 'iife',
-  target: kTarget,
 });
 
 // The page of a lesson file, what its worker runs, and what that runs on.

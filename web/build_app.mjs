@@ -7,17 +7,14 @@
 // NAME is a folder of src with main.tsx, style.css and, if the page needs its own, index.html. The
 // server serves the two assets as /assets/NAME/app.js and /assets/NAME/app.css.
 import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { gzipSync } from 'node:zlib';
+import { bundlerOf, here, kScript, kTarget } from './bundle.mjs';
 import { collectNotices, noticesHtml } from './notices.mjs';
 
 const kMaxGzipped = 200_000; // bytes of script that a participant may have to wait for
-const kTarget = ['chrome100', 'firefox100', 'safari15.4'];
 
-const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
   options: { page: { type: 'string' }, out: { type: 'string' }, modules: { type: 'string', default: here } },
 });
@@ -27,23 +24,7 @@ if (!values.page || !values.out || !existsSync(join(here, source, 'main.tsx'))) 
   process.exit(2);
 }
 const modules = resolve(values.modules);
-const { build } = createRequire(join(modules, 'package.json'))('esbuild');
-
-async function bundle(entry, options) {
-  const result = await build({
-    entryPoints: [join(here, entry)],
-    absWorkingDir: modules,
-    nodePaths: [join(modules, 'node_modules')],
-    bundle: true,
-    minify: true,
-    write: false,
-    metafile: true,
-    charset: 'ascii',
-    legalComments: 'none', // index.html has whole licences instead
-    ...options,
-  });
-  return { text: result.outputFiles[0].text, metafile: result.metafile };
-}
+const bundle = bundlerOf(modules);
 
 // The colours are defined in TypeScript; served pages need them as a style sheet.
 async function themeSheet() {
@@ -52,13 +33,7 @@ async function themeSheet() {
   return theme.themeSheet();
 }
 
-const script = await bundle(`${source}/main.tsx`, {
-  jsx: 'automatic',
-  jsxImportSource: 'preact',
-  platform: 'browser',
-  format: 'iife',
-  target: kTarget,
-});
+const script = await bundle(`${source}/main.tsx`, kScript);
 const style = await bundle(`${source}/style.css`, { target: kTarget });
 const own = join(here, source, 'index.html');
 const template = readFileSync(existsSync(own) ? own : join(here, 'src/shared/app.html'), 'utf8');

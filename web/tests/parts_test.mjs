@@ -75,19 +75,22 @@ describe('a document', () => {
     await withDocument(bare, async ({ page }) => assert.deepEqual(await sections(page), ['summary', 'notices']));
   });
 
-  it('of a study with further factors the first variant is shown, and a note says so', async () => {
-    const twice = (document) => {
-      document.overview.factors = ['particles'];
+  it('what a study varies makes panels, with a row per strategy in each', async () => {
+    const varied = (document) => {
+      document.overview.factors = ['teacher.noise'];
       const { columns, rows } = document.tables.cells;
-      document.tables.cells = {
-        columns: ['particles', ...columns],
-        rows: [100, 1000].flatMap((value) => rows.map((row) => [value, ...row])),
-      };
+      const settings = [0.1, 0.5].flatMap((noise) => rows.map(([strategy, ...row]) => [`${strategy} [teacher.noise=${noise}]`, ...row]));
+      document.tables.cells = { columns, rows: settings };
+      const { strategies } = document.labels;
+      document.labels.strategies = Object.fromEntries(
+        settings.map(([code]) => [code, `${strategies[code.split(' ')[0]]}, noise ${/=(.*)\]/.exec(code)[1]}`]),
+      );
+      document.overview.strategies = Object.keys(document.labels.strategies);
     };
-    await withDocument(twice, async ({ page }) => {
-      assert.match(await page.textContent('#notes'), /also varies particles/);
-      await page.click('#figure-periods summary');
-      assert.equal(await page.$$eval('#figure-periods tbody tr', (rows) => rows.length), 20);
+    await withDocument(varied, async ({ page }) => {
+      const text = await page.textContent('#figure-knowledge svg');
+      assert.match(text, /Common.*a  NNN, ?noise 0[.]1.*h  PPP, ?noise 0[.]5/);
+      assert.doesNotMatch(text, /Common, noise/);
     });
   });
 
@@ -125,7 +128,7 @@ describe('a document', () => {
       assert.equal(await page.textContent('h1'), `${attack}.`);
       assert.equal(await page.title(), attack);
       assert.equal(await page.evaluate(() => window.attacked), undefined);
-      await page.hover('#figure-periods svg .mark-symbol path');
+      await page.hover('#figure-periods svg .mark-symbol path >> nth=0', { force: true });
       assert.equal(await page.$('img'), null);
     });
   });
