@@ -34,6 +34,14 @@ set(kith_threaded_runs "StudyRunTest.*:ShardTest.*")
 
 # Programs that take long, and the number of processes that share their tests where a program is not split by test.
 set(kith_processes_cli 6)
+set(kith_processes_service 3)
+# Those that begin first where no run has measured any, in seconds.
+set(kith_cost_service 100)
+set(kith_cost_cli 80)
+set(kith_cost_laws 50)
+set(kith_cost_live 40)
+set(kith_cost_explain 30)
+set(kith_cost_bec 20)
 
 # kith_test_program(<name> SOURCES a_test.cpp ... [DEPENDS lib ...])
 #
@@ -81,7 +89,7 @@ function(kith_test_program name)
     endif()
     math(EXPR shard "${process} - 1")
     add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 --gtest_filter=${quick})
-    set_tests_properties(${test} PROPERTIES LABELS ${name} TIMEOUT 1200
+    set_tests_properties(${test} PROPERTIES LABELS ${name} TIMEOUT 1200 COST "${kith_cost_${name}}"
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${processes};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
