@@ -20,19 +20,6 @@ std::string degrees_text(double df) {
   return df == std::floor(df) ? fmt::format("{:.0f}", df) : fmt::format("{:.1f}", df);
 }
 
-// The factors of a term joined to one whose levels are its cells.
-Factor cells_of(const ModelData& data, const std::vector<std::size_t>& term) {
-  Factor cells = data.factors.at(term.front());
-  for (std::size_t i = 1; i < term.size(); ++i) cells = interaction(cells, data.factors.at(term[i]));
-  return cells;
-}
-
-Factor all_cells(const ModelData& data) {
-  std::vector<std::size_t> every;
-  for (std::size_t f = 0; f < data.factors.size(); ++f) every.push_back(f);
-  return cells_of(data, every);
-}
-
 // How large an effect is, in the words of [cohen1988, section 8.2].
 std::string size_text(double eta_squared) {
   if (eta_squared < 0.01) return "negligible";
@@ -60,8 +47,9 @@ std::string at_start(std::string text) {
   return text;
 }
 
-void add_cell_warnings(const ModelData& data, double alpha, std::vector<std::string>& warnings) {
-  const auto cells = drop_unused(all_cells(data));
+void add_cell_warnings(const ModelData& data, const CellDesign& design, double alpha,
+                       std::vector<std::string>& warnings) {
+  const Factor cells{"cell", std::vector<std::string>(design.counts.size()), design.cell_of};
   const auto groups = split_by(data.values, cells);
   std::size_t least = groups.front().size(), most = 0;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
@@ -191,7 +179,7 @@ std::string sentence_of(const ModelData& data, const ModelResult& result, double
 std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha) {
   std::vector<std::string> warnings;
   if (data.factors.empty()) return warnings;
-  add_cell_warnings(data, alpha, warnings);
+  add_cell_warnings(data, result.table.effects->design, alpha, warnings);
   add_shape_warnings(result, alpha, warnings);
   add_far_value(data, result, warnings);
   return warnings;
