@@ -211,5 +211,19 @@ TEST(SelectDemonstrations, DependsOnTheStreamAndNotOnTheCache) {
   }
 }
 
+TEST(SelectDemonstrations, StopsWhereNobodyCanBeToldMoreAsIfEverybodyHadBeenAsked) {
+  const auto& atlas = item_delivery();
+  const VisitedStarts none{atlas.num_states()};
+  for (const auto& component : atlas.knowledge_components()) {
+    ASSERT_TRUE(component.conveyed.has_value());
+    auto unknown = component;
+    unknown.conveyed.reset();
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      EXPECT_EQ(selected_unit(initial_belief(), component, prior_region(), none, seed).demonstrations,
+                selected_unit(initial_belief(), unknown, prior_region(), none, seed).demonstrations);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kith
