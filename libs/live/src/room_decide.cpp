@@ -79,8 +79,8 @@ class SeatDecider {
     if (state_.phase != RoomPhase::kWatching || !seat_.in_period) {
       return is_running(state_) && state_.phase != RoomPhase::kWatching ? nothing_to_do() : not_now();
     }
-    if (watched.demo < seat_.watched) return nothing_to_do();
-    return watched.demo > seat_.watched ? not_now() : accepted(watched);
+    if (watched.index < seat_.watched) return nothing_to_do();
+    return watched.index > seat_.watched ? not_now() : accepted(watched);
   }
 
   [[nodiscard]] Decision ask(Drafted draft) const {

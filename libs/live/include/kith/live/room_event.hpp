@@ -165,8 +165,8 @@ struct LessonChosen {
 /// Somebody watched a demonstration.
 struct Watched {
   static constexpr RoomEventKind kKind{"watched", "watched", kSeat};
-  std::size_t demo = 0;
-  static constexpr auto kMembers = members("demo", &Watched::demo, kFew);
+  std::size_t index = 0;
+  static constexpr auto kMembers = members("demo", &Watched::index, kFew);
 };
 
 /// What somebody has of a path so far.
