@@ -7,14 +7,13 @@
 #include <optional>
 #include <string>
 
-#include "kith/service/live_service.hpp"
+#include "http_answer.hpp"
 #include "strands.hpp"
 
 namespace kith {
 
 class HostedRoom;
 struct ServiceState;
-using HttpAnswer = LiveService::HttpAnswer;
 
 // How people come in. On the strand of the desk.
 class JoinDesk {

@@ -41,9 +41,12 @@ std::uint16_t Server::port() const { return state_->listener->port(); }
 ServerStatus Server::status() const {
   const auto& context = state_->context;
   return {.connections = context.admission.num_sockets(),
+          .web_sockets = context.web_sockets,
           .requests = context.requests,
+          .frames_in = context.frames_in,
           .turned_away = context.admission.num_turned_away(),
-          .slow_clients = context.slow_clients};
+          .slow_clients = context.slow_clients,
+          .timed_out = context.timed_out};
 }
 
 void Server::stop(std::chrono::milliseconds patience) {

@@ -66,10 +66,13 @@ WebSocketConnection::WebSocketConnection(ServerContext& context, tcp::socket soc
       remote_{std::move(remote)},
       messages_{context.options.limits.messages_per_second, context.options.limits.message_burst,
                 std::chrono::steady_clock::now()},
-      queue_{context.options.limits.queued_frames, context.options.limits.queued_bytes} {}
+      queue_{context.options.limits.queued_frames, context.options.limits.queued_bytes} {
+  ++context_.web_sockets;
+}
 
 WebSocketConnection::~WebSocketConnection() {
   if (handle_) handle_->detach();
+  --context_.web_sockets;
 }
 
 void WebSocketConnection::start(HttpMessage request) {
@@ -130,6 +133,7 @@ void WebSocketConnection::deliver() {
   if (!json_nests_within(frame, context_.options.limits.json_depth)) {
     return begin_close(Code::policy_error, "the JSON nests too deeply");
   }
+  ++context_.frames_in;
   try {
     context_.application.receive(id_, frame);
   } catch (const std::exception& failure) {
@@ -243,6 +247,7 @@ void WebSocketConnection::arm(std::chrono::milliseconds time) {
 
 void WebSocketConnection::on_time_out() {
   if (closing_) return finish();
+  ++context_.timed_out;
   begin_close(Code::policy_error, "no valid hello arrived in time");
 }
 

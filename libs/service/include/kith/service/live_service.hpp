@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include <vector>
 
 #include "kith/core/live_application.hpp"
 
