@@ -114,9 +114,7 @@ void BotFacilitator::say(const std::string& type, Json body) {
   });
 }
 
-std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, std::size_t people,
-                                                             const std::string& strategy,
-                                                             std::set<std::string> earlier) {
+std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, std::set<std::string> earlier) {
   const auto fail = [&] {
     const std::lock_guard lock{shared_->mutex};
     throw Error{ErrorKind::kIo, "the rehearsal cannot make its rooms: " +
@@ -138,10 +136,7 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
   };
   for (std::size_t made = 0; made < count;) {
     const auto now = std::min(kRoomsAtOnce, count - made);
-    Json body{{"count", now}};
-    for (std::size_t i = 0; i < people; ++i) body["seats"].push_back("person");
-    if (!strategy.empty()) body["strategy"] = strategy;
-    say("room-make", std::move(body));
+    say("room-make", {{"count", now}});
     made += now;
     const auto has_all = [&] {
       const auto& rooms = view["rooms"];

@@ -30,10 +30,9 @@ class BotFacilitator {
   BotFacilitator(const BotFacilitator&) = delete;
   BotFacilitator& operator=(const BotFacilitator&) = delete;
 
-  /// Makes rooms for so many people each; 0: as the study says. @throws kith::Error (kIo) if that fails.
+  /// Makes rooms as the study says. @throws kith::Error (kIo) if that fails.
   /// @param earlier  ids of rooms that were made before; the server may not show all of them yet if it was restarted.
-  [[nodiscard]] std::vector<Room> make_rooms(std::size_t count, std::size_t people, const std::string& strategy,
-                                             std::set<std::string> earlier = {});
+  [[nodiscard]] std::vector<Room> make_rooms(std::size_t count, std::set<std::string> earlier = {});
   /// Asks for the end of rooms, at a pace that the server allows, and waits for the replies.
   void end_rooms(const std::vector<Room>& rooms);
   /// Opens the page of a room, once there is a connection.

@@ -344,13 +344,11 @@ void HttpConnection::arm(std::chrono::milliseconds time) {
 
 void HttpConnection::on_time_out() {
   if (phase_ == Phase::kReading) {
-    if (reader_.state() != RequestReader::State::kIdle) ++context_.timed_out;
     has_timed_out_ = true;
     NetError ignored;
     socket_.cancel(ignored);
     return;
   }
-  if (phase_ == Phase::kWriting) ++context_.timed_out;
   finish();
 }
 

@@ -7,13 +7,14 @@
 #include <optional>
 #include <string>
 
-#include "http_answer.hpp"
+#include "kith/service/live_service.hpp"
 #include "strands.hpp"
 
 namespace kith {
 
 class HostedRoom;
 struct ServiceState;
+using HttpAnswer = LiveService::HttpAnswer;
 
 // How people come in. On the strand of the desk.
 class JoinDesk {

@@ -59,11 +59,7 @@ RehearsalResult result_of(const std::vector<std::shared_ptr<Bot>>& bots) {
 class Groups {
  public:
   Groups(Threads& threads, const tcp::endpoint& server, const RehearsalOptions& options)
-      : threads_{threads},
-        server_{server},
-        options_{options},
-        world_{.options = options, .server = server},
-        seed_{options.seed} {
+      : threads_{threads}, server_{server}, options_{options}, world_{.options = options, .server = server} {
     facilitator_.emplace(threads_.io(), server_, options_.facilitator);
     add(options_.groups);
   }
@@ -122,7 +118,7 @@ class Groups {
   void add(std::size_t count) {
     std::set<std::string> earlier;
     for (const auto& group : groups_) earlier.insert(group.room.id);
-    for (auto& room : facilitator_->make_rooms(count, options_.people, options_.strategy, std::move(earlier))) {
+    for (auto& room : facilitator_->make_rooms(count, std::move(earlier))) {
       const auto shared = std::make_shared<BotGroup>();
       shared->unfinished = room.tokens.size();
       world_.unfinished += room.tokens.size();
@@ -138,7 +134,7 @@ class Groups {
   tcp::endpoint server_;
   const RehearsalOptions& options_;
   BotWorld world_;
-  std::uint64_t seed_;
+  std::uint64_t seed_ = 1;
   std::optional<BotFacilitator> facilitator_;
   std::vector<Group> groups_;
   std::vector<std::shared_ptr<Bot>> people_;
@@ -156,13 +152,10 @@ std::size_t RehearsalResult::num_finished() const {
 }
 
 RehearsalResult rehearse(const RehearsalOptions& options) {
-  NetError error;
-  const auto address = asio::ip::make_address(options.address, error);
-  if (error) throw Error{ErrorKind::kUsage, "'" + options.address + "' is no IP address"};
-  const tcp::endpoint server{address, options.port};
+  const tcp::endpoint server{asio::ip::address_v4::loopback(), options.port};
   const bool is_timed = options.duration.count() > 0;
 
-  Threads threads{std::max<std::size_t>(options.threads, 1)};
+  Threads threads{1};
   Groups groups{threads, server, options};
   const auto start = Clock::now();
   const auto wait = [&](auto&& goes_on) {

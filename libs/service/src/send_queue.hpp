@@ -38,7 +38,6 @@ class SendQueue {
     return frame;
   }
 
-  [[nodiscard]] bool empty() const { return frames_.empty(); }
   [[nodiscard]] bool is_overflown() const { return is_overflown_; }
 
  private:

@@ -43,10 +43,8 @@ ServerStatus Server::status() const {
   return {.connections = context.admission.num_sockets(),
           .web_sockets = context.web_sockets,
           .requests = context.requests,
-          .frames_in = context.frames_in,
           .turned_away = context.admission.num_turned_away(),
-          .slow_clients = context.slow_clients,
-          .timed_out = context.timed_out};
+          .slow_clients = context.slow_clients};
 }
 
 void Server::stop(std::chrono::milliseconds patience) {

@@ -41,9 +41,7 @@ struct ServerContext {
   std::atomic<std::size_t> refusing{0};          ///< ServerConnections that are only told that there are too many.
   std::atomic<std::size_t> waiting_requests{0};  ///< For the application's answer.
   std::atomic<std::uint64_t> requests{0};
-  std::atomic<std::uint64_t> frames_in{0};
   std::atomic<std::uint64_t> slow_clients{0};
-  std::atomic<std::uint64_t> timed_out{0};
 };
 
 }  // namespace kith

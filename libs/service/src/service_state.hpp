@@ -12,7 +12,6 @@
 #include "busy_count.hpp"
 #include "directory.hpp"
 #include "hosted_room.hpp"
-#include "http_answer.hpp"
 #include "join_desk.hpp"
 #include "kith/service/authorisation.hpp"
 #include "kith/service/live_service.hpp"
@@ -85,6 +84,8 @@ struct ServiceState {
   void serve(const std::string& route, const LiveService::HttpRequest& request, const HttpAnswer& answer);
 };
 
+[[nodiscard]] LiveService::HttpReply json_reply(int status, const Json& body);
+[[nodiscard]] LiveService::HttpReply error_reply(int status, const std::string& reason, const std::string& text);
 [[nodiscard]] inline Refusal not_saved() { return {"not-saved", "This could not be saved; try again."}; }
 [[nodiscard]] inline Refusal no_room() { return {"no-room", "There is no such room."}; }
 

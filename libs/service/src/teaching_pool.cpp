@@ -13,12 +13,9 @@ void TeachingPool::stop() {
   {
     const std::lock_guard lock{mutex_};
     is_stopping_ = true;
-    for (auto* queue : {&now_, &ahead_}) {
-      for (const auto& job : std::exchange(*queue, {})) {
-        static_cast<void>(job);
-        busy_.end();
-      }
-    }
+    for (auto left = now_.size() + ahead_.size(); left > 0; --left) busy_.end();
+    now_.clear();
+    ahead_.clear();
   }
   threads_.stop();
 }

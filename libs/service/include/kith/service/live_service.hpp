@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-#include <vector>
 
 #include "kith/core/live_application.hpp"
 

@@ -20,22 +20,17 @@ struct AnswerPath {
 
 /// A rehearsal: groups of simulated people who use a server through its real protocol, as browsers do.
 struct RehearsalOptions {
-  std::string address = "127.0.0.1";
-  std::uint16_t port = 0;
+  std::uint16_t port = 0;   ///< On this machine.
   std::string facilitator;  ///< Token of a facilitator: makes the rooms, and ends them when time is up.
   /// Token of an observer: with it, an observer and a facilitator look at one group after another all the time.
   std::string observer{};
   std::size_t groups = 1;
-  std::size_t people = 0;  ///< Per group; 0: as the study says.
-  std::string strategy{};  ///< Of all groups; empty: those of the design in turn.
   /// For how long: groups that finish are followed by new ones, and when time is up all are ended. 0: until everybody
   /// has finished.
   std::chrono::milliseconds duration{0};
   std::chrono::milliseconds answer_every{5'000};  ///< How long a person takes for an answer, on average.
   double reconnects = 0.0;                        ///< Share of people who lose their connection, per second.
   double right = 0.8;                             ///< Share of right answers; others stop a step too early.
-  std::uint64_t seed = 1;
-  std::size_t threads = 1;
   /// A right answer; nothing if it is not known. @param world  its key; @param start  number of the state. Called from
   /// several threads.
   std::function<std::optional<AnswerPath>(const std::string& world, int start)> right_path{};

@@ -76,10 +76,8 @@ struct ServerStatus {
   std::size_t connections = 0;     ///< Open now, of either kind.
   std::size_t web_sockets = 0;     ///< Open now.
   std::uint64_t requests = 0;      ///< Answered, refused ones included.
-  std::uint64_t frames_in = 0;     ///< Delivered to the application.
   std::uint64_t turned_away = 0;   ///< Connections refused or closed by a limit on sockets.
   std::uint64_t slow_clients = 0;  ///< Disconnected because they did not read what was sent.
-  std::uint64_t timed_out = 0;     ///< Disconnected because they did not send in time.
 };
 
 }  // namespace kith
