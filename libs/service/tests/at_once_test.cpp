@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <set>
 #include <thread>
@@ -71,9 +72,9 @@ TEST(LiveService, KeepsEverythingInOrderWhenItHappensAtOnce) {
   std::atomic<bool> is_over = false;
   std::jthread time{[&] {
     while (!is_over) {
-      stage.clock().advance_ms(20);
+      stage.clock().advance_ms(1);
       stage.service().tick();
-      std::this_thread::yield();
+      std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
   }};
   {
