@@ -13,8 +13,8 @@ namespace kith::testing {
 inline void make_session(const std::filesystem::path& folder, int rooms) {
   const auto study = make_session_study(load_study("quick"));
   std::filesystem::create_directories(folder);
-  auto file = EventFile::make(folder, {.study = study.digest, .program = "kith test", .inputs = study.inputs},
-                              std::string(32, 'a'), 1'700'000'000'000'000);
+  auto file = EventFile::open(folder, {.study = study.digest, .program = "kith test", .inputs = study.inputs},
+                              1'700'000'000'000'000);
   if (rooms == 0) return;
   StoreBatch batch;
   for (int number = 1; number <= rooms; ++number) {
