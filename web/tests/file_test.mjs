@@ -157,8 +157,8 @@ describe('a lesson in a file', () => {
     await withReader('delivery.html', {}, async (reader) => {
       const { page } = reader;
       await reach([reader], ['feedback']);
-      while (reader.view.feedback.tests.length > 1 && !(await page.locator('.explore-part').isVisible())) await reader.button('Next').click();
-      await page.locator('.explore-part summary').click();
+      while (reader.view.feedback.tests.length > 1 && !(await reader.button('Change the world').isVisible())) await reader.button('Next').click();
+      await reader.button('Change the world').click();
       const shown = () => reader.view.explore.last;
       const cell = (x, y) => page.locator(`[data-cell="${x},${y}"]`);
       const put = async (name, x, y) => {
@@ -166,9 +166,9 @@ describe('a lesson in a file', () => {
         await cell(x, y).click();
       };
       // Walls around the goal: the robot cannot do its job, and is told so.
-      await put('Put: wall', 1, 2);
-      await put('Put: wall', 2, 2);
-      await put('Put: wall', 2, 3);
+      await put('Wall', 1, 2);
+      await put('Wall', 2, 2);
+      await put('Wall', 2, 3);
       await until(() => shown()?.impossible);
       await page.getByText('The robot cannot do its job here').waitFor();
       await reader.button('As it was').click();

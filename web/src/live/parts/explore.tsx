@@ -2,6 +2,7 @@
 import type { JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { kUnit } from '../../shared/board/geometry';
+import { PartGlyph } from '../../shared/board/glyphs';
 import type { Legend } from '../../shared/board/legend';
 import { closedAt, played } from '../../shared/board/repeats';
 import type { Frame, Path, Place, PlayBoard } from '../../shared/board/types';
@@ -60,7 +61,41 @@ function canPickUp({ board }: Asked, legend: Legend, put: string[], cell: Place)
 const nameOf = (legend: Legend, symbol: string): string =>
   listed(legend.parts(symbol).map(({ kind, name }) => (kind === 'wall' ? t('legend.wall') : named(name))));
 
-export function Explore({ explore, connection }: { explore: Shown; connection: Connection }): JSX.Element {
+// How many places are not as they were.
+function changesOf({ map = [], start }: PlayBoard, now: PlayBoard): number {
+  const cells = map.flatMap((row, y) => [...row].filter((symbol, x) => now.map?.[y]?.charAt(x) !== symbol));
+  return cells.length + (start.robot && isSame(now.start.robot, start.robot) ? 0 : 1);
+}
+
+function Tool({ legend, symbol, isOn, onChoose }: { legend: Legend; symbol: string; isOn: boolean; onChoose: () => void }): JSX.Element {
+  const parts = legend.parts(symbol);
+  return (
+    <label class="tile">
+      <input type="radio" name="explore-tool" checked={isOn} onChange={onChoose} />
+      <svg viewBox="-22 -22 44 44" aria-hidden="true" focusable="false">
+        <rect class="floor" x={-20} y={-20} width={40} height={40} />
+        {symbol === '' && <path class="icon-line" d="M-12 0H12M0-12V12M-8-4-12 0-8 4M8-4 12 0 8 4M-4-8 0-12 4-8M-4 8 0 12 4 8" />}
+        {parts.map((part) => (
+          <PartGlyph part={part} legend={legend} />
+        ))}
+        <rect class="frame" x={-20} y={-20} width={40} height={40} />
+      </svg>
+      {symbol === '' ? t('explore.move') : parts.length === 0 ? t('explore.clear') : capitalised(nameOf(legend, symbol))}
+    </label>
+  );
+}
+
+// The task, and the world.
+export function Exploring({ explore, connection }: { explore: Shown; connection: Connection }): JSX.Element {
+  return (
+    <>
+      <p class="lead">{t(explore.put.length > 0 ? 'explore.lead' : 'explore.lead_robot')}</p>
+      <Explore explore={explore} connection={connection} />
+    </>
+  );
+}
+
+function Explore({ explore, connection }: { explore: Shown; connection: Connection }): JSX.Element {
   const { first, last, put } = explore;
   const legend = useLegend(first.board?.domain ?? { id: '' });
   const beginning: Asked | null = first.board ? { board: first.board, isChanged: false } : null;
@@ -88,15 +123,12 @@ export function Explore({ explore, connection }: { explore: Shown; connection: C
           <fieldset class="tools">
             <legend class="visually-hidden">{t('explore.tools')}</legend>
             {['', ...put].map((symbol) => (
-              <label>
-                <input type="radio" name="explore-tool" checked={tool === symbol} onChange={() => setTool(symbol)} />
-                {symbol === '' ? t('explore.move') : legend.parts(symbol).length === 0 ? t('explore.clear') : t('explore.put', { name: capitalised(nameOf(legend, symbol)) })}
-              </label>
+              <Tool legend={legend} symbol={symbol} isOn={tool === symbol} onChoose={() => setTool(symbol)} />
             ))}
           </fieldset>
         )}
         <p class="muted hint">{t('explore.keys')}</p>
-        <Answer result={result} before={before.current} isAsked={asked !== null} />
+        <Answer result={result} before={before.current} changes={asked ? changesOf(beginning.board, asked.board) : null} />
         <Button off={asked === null} onClick={() => setAsked(null)}>
           {t('explore.reset')}
         </Button>
@@ -108,7 +140,7 @@ export function Explore({ explore, connection }: { explore: Shown; connection: C
 
 const pathText = ({ path }: Explored): string => listed((path?.frames ?? []).flatMap(({ action }) => (action ? [actionLabel(action)] : [])));
 
-function Answer({ result, before, isAsked }: { result: Explored; before: Explored; isAsked: boolean }): JSX.Element {
+function Answer({ result, before, changes }: { result: Explored; before: Explored; changes: number | null }): JSX.Element {
   if (result.impossible || !result.board || !result.path) return <p class="reasons" role="status">{t('explore.impossible')}</p>;
   const key = pathText(result) === pathText(before) ? 'explore.same' : 'explore.changed';
   const columns = [{ name: t('ledger.robot'), kind: 'own' as const, counts: countsOf(played(result.path)) }];
@@ -116,7 +148,7 @@ function Answer({ result, before, isAsked }: { result: Explored; before: Explore
   return (
     <>
       <div class="reasons" role="status">
-        {isAsked && <p>{t(key)} <span class="visually-hidden">{capitalised(pathText(result))}</span></p>}
+        {changes !== null && <p>{t(key)} {t('explore.changes', { n: changes })} <span class="visually-hidden">{capitalised(pathText(result))}</span></p>}
         {result.tie && <p>{t('explore.tie')}</p>}
         {isEnglish() && result.reason && <p class="cost">{sentence(result.reason)}</p>}
       </div>

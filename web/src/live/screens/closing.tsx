@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { useLegend } from '../../shared/play/board_pane';
 import { SmallBoard } from '../../shared/play/small_board';
 import { remembered, type Memory } from '../memory';
-import { Explore } from '../parts/explore';
+import { Exploring } from '../parts/explore';
 import { Button, CompletionCode, GoOn, Heading } from '../parts/ui';
 import type { Judged, ParticipantView, Update } from '../protocol';
 import type { ScreenProps } from '../screen';
@@ -33,8 +33,7 @@ export function Debrief({ debrief, isSaved, view, connection }: DebriefProps): J
       {view.explore && (
         <section class="explore-part no-print" aria-labelledby="explore-title">
           <h2 id="explore-title">{t('explore.title')}</h2>
-          <p>{t(view.explore.put.length > 0 ? 'explore.lead' : 'explore.lead_robot')}</p>
-          <Explore explore={view.explore} connection={connection} />
+          <Exploring explore={view.explore} connection={connection} />
         </section>
       )}
       {summary.length > 0 && (

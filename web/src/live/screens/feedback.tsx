@@ -8,7 +8,7 @@ import { Brackets, type Bracket } from '../../shared/play/brackets';
 import { Compare } from '../../shared/play/compare';
 import { Fan, stateAt } from '../../shared/play/fan';
 import { sentence, t, type TextKey } from '../../shared/texts';
-import { Explore } from '../parts/explore';
+import { Exploring } from '../parts/explore';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { remember } from '../memory';
 import type { Frame, Judged } from '../protocol';
@@ -30,6 +30,7 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
     setIndex(to);
     keep('feedback', { key, index: to });
   };
+  const [isExploring, setExploring] = useState(false);
   const test = feedback.tests[index];
   const isLast = index >= feedback.tests.length - 1;
   const off = connection.isPending('continue');
@@ -54,13 +55,23 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
     <>
       <p class="kicker">{t('feedback.count', { index: index + 1, of: feedback.tests.length })}</p>
       <TimeLeft until={view.limit_ms} />
-      <OneTask key={index} test={test} token={token} brackets={isLast ? (feedback.brackets ?? []) : []} next={next} />
       {isLast && view.explore && (
-        <details class="explore-part">
-          <summary>{t('explore.title')}</summary>
-          <p>{t(view.explore.put.length > 0 ? 'explore.lead' : 'explore.lead_robot')}</p>
-          <Explore explore={view.explore} connection={connection} />
-        </details>
+        <div class="buttons tabs">
+          <Button pressed={!isExploring} onClick={() => setExploring(false)}>
+            {t('feedback.title.none')}
+          </Button>
+          <Button pressed={isExploring} onClick={() => setExploring(true)}>
+            {t('explore.title')}
+          </Button>
+        </div>
+      )}
+      {isLast && view.explore && isExploring ? (
+        <section class="explore-part" aria-label={t('explore.title')}>
+          <Exploring explore={view.explore} connection={connection} />
+          {next}
+        </section>
+      ) : (
+        <OneTask key={index} test={test} token={token} brackets={isLast ? (feedback.brackets ?? []) : []} next={next} />
       )}
     </>
   );
