@@ -68,7 +68,8 @@ const Star = ({ x, y, size }: { x: number; y: number; size: number }): JSX.Eleme
 
 export function GlobesDrawing({ space, balls, turn, width, height = Infinity, hasKeys, marked, onMark }: DrawingProps): JSX.Element {
   const below = kName + kLine * Math.max(0, ...balls.map(({ thinks }) => thinks?.lines.length ?? 0)) + 1;
-  const top = hasKeys ? kKey : 0;
+  const keys = hasKeys ? keyPlaces(space, width) : [];
+  const top = hasKeys ? kKey * ((keys.at(-1)?.line ?? 0) + 1) : 0;
   const few = Number.isFinite(height) ? height : Math.ceil(balls.length / Math.max(2, Math.floor(width / 150))) * (kLargest + below);
   const { columns, size } = layoutOf(balls.length, width, few, below);
   const cell = width / columns;
@@ -94,7 +95,14 @@ export function GlobesDrawing({ space, balls, turn, width, height = Infinity, ha
       <clipPath id="globe">
         <circle r={radius} />
       </clipPath>
-      {hasKeys && <Keys space={space} />}
+      {keys.map(({ name, x, line }, i) => (
+        <g transform={`translate(${x} ${8 + kKey * line})`}>
+          <Sign i={i} count={space.regions.length} />
+          <text x={18} y={4} fill={color('muted')}>
+            {name}
+          </text>
+        </g>
+      ))}
       {balls.map((ball, i) => {
         const { name, kind, points, share, thinks } = ball;
         const star = globe.place(asVector(space.truth));
@@ -146,30 +154,23 @@ export function GlobesDrawing({ space, balls, turn, width, height = Infinity, ha
 const kDashes = ['', '4 3', '1.5 2.5', '7 3'];
 
 const keyNames = ({ regions }: Space): string[] => [...regions.map(({ label }) => label), 'true reward'];
-const widthOf = (name: string): number => 26 + kLetter * name.length;
-const keysWidth = (space: Space): number => keyNames(space).reduce((sum, name) => sum + widthOf(name), 0);
 
-function Keys({ space }: { space: Space }): JSX.Element {
-  const { regions } = space;
-  let x = 0;
-  return (
-    <g>
-      {keyNames(space).map((name, i) => {
-        const from = x;
-        x += widthOf(name);
-        return (
-          <g transform={`translate(${from} 7)`}>
-            {i === 0 && <rect y={-6} width={12} height={12} rx={3} fill={color('board-own')} fill-opacity={0.28} stroke={color('board-own')} stroke-width={1.6} />}
-            {i > 0 && i < regions.length && <path d="M0 0h14" stroke={color('muted')} stroke-width={1.6} stroke-dasharray={kDashes[i % kDashes.length]} />}
-            {i === regions.length && <Star x={6} y={0} size={7} />}
-            <text x={18} y={4} fill={color('muted')}>
-              {name}
-            </text>
-          </g>
-        );
-      })}
-    </g>
-  );
+// The sign of the i-th name, around (7, 0).
+function Sign({ i, count }: { i: number; count: number }): JSX.Element {
+  if (i === count) return <Star x={7} y={0} size={7} />;
+  if (i > 0) return <path d="M0 0h14" stroke={color('muted')} stroke-width={1.6} stroke-dasharray={kDashes[i % kDashes.length]} />;
+  return <rect x={1} y={-6} width={12} height={12} rx={3} fill={color('board-own')} fill-opacity={0.28} stroke={color('board-own')} stroke-width={1.6} />;
+}
+
+// Names beside each other, in as many lines as they need.
+function keyPlaces(space: Space, width: number): { name: string; x: number; line: number }[] {
+  let [x, line] = [0, 0];
+  return keyNames(space).map((name) => {
+    const own = 26 + kLetter * name.length;
+    if (x > 0 && x + own > width) [x, line] = [0, line + 1];
+    x += own;
+    return { name, x: x - own, line };
+  });
 }
 
 // Where a feature's weight is all there is, positive or negative.
@@ -221,9 +222,16 @@ export function Globes({ onTurn, ...drawing }: GlobesProps): JSX.Element {
   );
   return (
     <>
-      <svg class="keys" width={keysWidth(space)} height={16} font-size={`${kText}px`} role="img" aria-label={`Shown: ${keyNames(space).join(', ')}`}>
-        <Keys space={space} />
-      </svg>
+      <span class="keys">
+        {keyNames(space).map((name, i) => (
+          <span>
+            <svg viewBox="-1 -8 16 16" width="16" height="16" aria-hidden="true">
+              <Sign i={i} count={space.regions.length} />
+            </svg>{' '}
+            {name}
+          </span>
+        ))}
+      </span>
       <span class="turners">
         {slider('Turn', turn.lambda, [-180, 180, 1], (lambda) => onTurn({ ...turn, lambda }))}
         {slider('Tilt', turn.phi, [-90, 90, 1], (phi) => onTurn({ ...turn, phi }))}
