@@ -54,8 +54,7 @@ TEST(Mastery, PosteriorStopsOnceItIsSureEnough) {
     auto session = session_of_two(cache, "plan", {.mastery = stop_rule_named("posterior"), .probability = probability});
     while (session.propose(cache)) {
       session.submit(answers_to(session, true));
-      EXPECT_GE(session.level_of_mastery(), 0.0);
-      EXPECT_LE(session.level_of_mastery(), 1.0);
+      EXPECT_THAT(session.level_of_mastery(), ::testing::AllOf(Ge(0.0), ::testing::Le(1.0)));
       if (session.history().back().feedback.component_learned) {
         EXPECT_GE(session.level_of_mastery(), probability);
       }
@@ -92,8 +91,7 @@ TEST(Mastery, ExamStopsOnceItIsCertainThatEverybodyPredictsEnoughStarts) {
           cache, "joint", {.mastery = stop_rule_named("exam"), .max_periods = 20, .share_right = share_right});
       while (session.propose(cache)) {
         session.submit(answers_to(session, right));
-        EXPECT_GE(session.level_of_mastery(), 0.0);
-        EXPECT_LE(session.level_of_mastery(), 1.0);
+        EXPECT_THAT(session.level_of_mastery(), ::testing::AllOf(Ge(0.0), ::testing::Le(1.0)));
         EXPECT_EQ(session.history().back().feedback.component_learned, session.level_of_mastery() >= 0.9);
       }
       return session;

@@ -67,8 +67,8 @@ class Regions {
   const ConstraintTable* table_;
   std::unordered_map<ConstraintSet, Region> known_;
   const std::pair<const ConstraintSet, Region>* taught_ = nullptr;  // the last one that effect() was asked of
-  std::unordered_map<ConstraintSet, ConstraintSet> minimal_;  // above three dimensions
-  std::list<Comparison> comparisons_;                         // the last few, the latest first
+  std::unordered_map<ConstraintSet, ConstraintSet> minimal_;        // above three dimensions
+  std::list<Comparison> comparisons_;                               // the last few, the latest first
 };
 
 }  // namespace kith
