@@ -11,6 +11,7 @@
 #include "kith/explain/contrast.hpp"
 #include "kith/live/world_json.hpp"
 #include "live_texts.hpp"
+#include "message_json.hpp"
 #include "room_view.hpp"
 
 namespace kith {
@@ -22,11 +23,10 @@ constexpr std::size_t kMostStates = 4000;
 Exploration impossible() { return {{true, {}}, {}}; }
 
 std::optional<Cell> cell_of(const Json& json, const GridMap& map) {
-  if (!json.is_array() || json.size() != 2 || !json[0].is_number_integer() || !json[1].is_number_integer()) {
-    return std::nullopt;
-  }
-  const auto column = json[0].get<std::int64_t>(), row = json[1].get<std::int64_t>();
-  if (column < 1 || column > map.width() || row < 1 || row > map.height()) return std::nullopt;
+  const auto place = read_within<std::vector<std::int64_t>>(json, {.least = 1});
+  if (!place || place->size() != 2) return std::nullopt;
+  const auto column = place->front(), row = place->back();
+  if (column > map.width() || row > map.height()) return std::nullopt;
   return Cell{static_cast<int>(column), map.height() + 1 - static_cast<int>(row)};
 }
 
@@ -123,7 +123,7 @@ Exploration explored(const Atlas& atlas, StartIndex demo) {
   return result;
 }
 
-Exploration explored(const LiveStudy& study, const AskedWorld& asked) try {
+Exploration explored(const LiveStudy& study, const happening::Explored& asked) try {
   if (asked.world) return explored_in(*study.atlas, MdpIndex{*asked.world}, asked.start);
   const auto& id = study.atlas->domain().id();
   const auto text = with_one_map(study.domain_text, id, asked.map);

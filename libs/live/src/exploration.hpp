@@ -8,16 +8,10 @@
 
 #include "kith/geometry/half_space.hpp"
 #include "kith/live/live_study.hpp"
+#include "kith/live/room_event.hpp"
 #include "views.hpp"
 
 namespace kith {
-
-/// What somebody asks of the robot: where would it go from here, in a world that they may have changed?
-struct AskedWorld {
-  std::optional<std::size_t> world;  ///< One of the domain's; nothing: that of `map`.
-  std::vector<std::string> map;      ///< Top row first, in symbols of the domain file.
-  Json start;                        ///< A frame as pages have them: {robot, items, stations}.
-};
 
 /// What the robot does there.
 struct Exploration {
@@ -35,7 +29,7 @@ struct Exploration {
 [[nodiscard]] std::vector<std::string> placeable_symbols(const Domain& domain);
 
 /// Never throws for what people send.
-[[nodiscard]] Exploration explored(const LiveStudy& study, const AskedWorld& asked);
+[[nodiscard]] Exploration explored(const LiveStudy& study, const happening::Explored& asked);
 [[nodiscard]] Exploration explored(const Atlas& atlas, StartIndex demo);
 
 }  // namespace kith

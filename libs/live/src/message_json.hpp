@@ -24,27 +24,18 @@ inline constexpr bool kIsOptional<std::optional<T>> = true;
 
 // --- reading: a value of a member; false if it is of another type ----------------------------------------------------
 
-inline bool read(const Json& json, Json& value) {
-  value = json;
-  return true;
-}
-inline bool read(const Json& json, std::string& value) {
-  if (json.is_string()) value = json.get<std::string>();
-  return json.is_string();
-}
-inline bool read(const Json& json, bool& value) {
-  if (json.is_boolean()) value = json.get<bool>();
-  return json.is_boolean();
-}
-inline bool read(const Json& json, std::int64_t& value) {
-  if (!json.is_number_integer() || (json.is_number_unsigned() && json.get<std::uint64_t>() > INT64_MAX)) return false;
-  value = json.get<std::int64_t>();
-  return true;
-}
-inline bool read(const Json& json, std::size_t& value) {
-  std::int64_t number = -1;
-  if (!read(json, number) || number < 0) return false;
-  value = static_cast<std::size_t>(number);
+template <typename T>
+bool read(const Json& json, T& value) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    if (!json.is_string()) return false;
+  } else if constexpr (std::is_same_v<T, bool>) {
+    if (!json.is_boolean()) return false;
+  } else if constexpr (std::is_integral_v<T>) {
+    const bool is_too_large = json.is_number_unsigned() && json.get<std::uint64_t>() > INT64_MAX;
+    if (!json.is_number_integer() || is_too_large) return false;
+    if (std::is_unsigned_v<T> && json.get<std::int64_t>() < 0) return false;
+  }
+  value = json.get<T>();
   return true;
 }
 template <typename T>
@@ -115,30 +106,13 @@ template <typename T>
   for (const T& value : values) list.push_back(written(value));
   return list;
 }
-template <typename T>
-[[nodiscard]] bool is_set(const std::optional<T>& value) {
-  return value.has_value();
-}
-template <typename T>
-[[nodiscard]] bool is_set(const std::vector<T>& values) {
-  return !values.empty();
-}
-template <typename T>
-[[nodiscard]] bool is_set(const T& value) {
-  return value != T{};
-}
-template <HasMembers T>
-[[nodiscard]] bool is_set(const T&) {
-  return true;
-}
-
 template <HasMembers T>
 Json written(const T& object) {
   Json json = Json::object();
   for_each_member(object, [&](const auto& member, const auto& value) {
     if (member.asked && !member.asked->is_stored) return;
-    if (member.may_miss && !is_set(value)) return;
     auto one = written(value);
+    if (member.may_miss && (one.is_null() || one == written(std::remove_cvref_t<decltype(value)>{}))) return;
     if (!member.name.empty()) {
       json[std::string{member.name}] = std::move(one);
     } else if (!one.is_null()) {

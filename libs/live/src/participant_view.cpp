@@ -175,8 +175,16 @@ class ParticipantPage {
       page.at<"wait">() = wait();
     } else if (stage == "debrief") {
       page.at<"debrief">() = debrief();
-    } else if (is_running(state_) && stage == rules_of(state_.phase).word) {
-      add_phase(page);
+    } else if (stage == rules_of(RoomPhase::kWatching).word) {
+      page.at<"watch">() = watch();
+    } else if (stage == rules_of(RoomPhase::kTesting).word) {
+      const auto& tests = state_.session->lesson().tests;
+      const auto test = current_test(seat_);
+      page.at<"predict">() = task(tests[test].demo, test, tests.size(), seat_.draft);
+    } else if (stage == rules_of(RoomPhase::kDiscussing).word) {
+      page.at<"discuss">() = discussion();
+    } else if (stage == rules_of(RoomPhase::kFeedback).word) {
+      page.at<"feedback">() = feedback_view(room_, seat_);
     } else if (stage == "questions") {
       page.at<"questions">() = {questions()};
     } else {
@@ -188,32 +196,6 @@ class ParticipantPage {
       page.at<"explore">() = explore_view(room_, seat_);
     }
     if (state_.deadline_us && stage == rules_of(state_.phase).word) page.at<"limit_ms">() = in_ms(*state_.deadline_us);
-  }
-
-  // What there is to do for the group.
-  void add_phase(view::Participant& page) const {
-    switch (state_.phase) {
-      case RoomPhase::kWatching:
-        page.at<"watch">() = watch();
-        return;
-      case RoomPhase::kTesting: {
-        const auto& tests = state_.session->lesson().tests;
-        const auto test = current_test(seat_);
-        page.at<"predict">() = task(tests[test].demo, test, tests.size(), seat_.draft);
-        return;
-      }
-      case RoomPhase::kDiscussing:
-        page.at<"discuss">() = discussion();
-        return;
-      case RoomPhase::kFeedback:
-        page.at<"feedback">() = feedback_view(room_, seat_);
-        return;
-      case RoomPhase::kLobby:  // there is nothing to do, or not for the group
-      case RoomPhase::kTeaching:
-      case RoomPhase::kQuestions:
-      case RoomPhase::kEnded:
-        return;
-    }
   }
 
   [[nodiscard]] std::size_t start_number(StartIndex demo) const {
@@ -267,36 +249,29 @@ class ParticipantPage {
     return watch;
   }
 
-  // How many others wait is shown, but not for whom they wait: that would tell people how able they are.
-  [[nodiscard]] view::Lobby waiting_list() const {
-    const auto waiting =
-        static_cast<std::size_t>(std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
-          return seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here;
-        }));
-    auto lobby = lobby_of(std::min(waiting, size() - 1), size());
-    const auto lobby_s = room_.study.group().time.lobby_s;
-    if (lobby_s > 0 && room_.study.group().auto_start)
-      lobby.at<"until_ms">() = in_ms(seat_.ready_us + lobby_s * kSecond);
-    return lobby;
-  }
-
-  [[nodiscard]] view::Lobby lobby_of(std::size_t present, std::size_t size) const {
-    const auto leave_us = seat_.ready_us + room_.study.group().time.leave_after_s * kSecond;
-    return {present, size, in_ms(seat_.ready_us), in_ms(leave_us), {}};
-  }
-
+  // On the waiting list how many others wait is shown, but not for whom they wait: that would tell people how able they
+  // are.
   [[nodiscard]] view::Lobby lobby() const {
-    if (room_.setup.is_waiting_list) return waiting_list();
-    const auto present = std::count_if(state_.members.begin(), state_.members.end(), [&](const LiveMember& member) {
-      if (!member.seat) return false;
-      const auto& seat = state_.seats[*member.seat];
-      return !seat.is_person ||
-             (seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here);
-    });
-    auto lobby = lobby_of(static_cast<std::size_t>(present), state_.members.size());
-    const auto lobby_s = room_.study.group().time.lobby_s;
-    if (state_.phase == RoomPhase::kLobby && state_.lobby_us && lobby_s > 0 && room_.study.group().auto_start) {
-      lobby.at<"until_ms">() = in_ms(*state_.lobby_us + lobby_s * kSecond);
+    const auto& time = room_.study.group().time;
+    const auto waits = [](const LiveSeat& seat) {
+      return seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here;
+    };
+    const bool is_list = room_.setup.is_waiting_list;
+    const auto present =
+        is_list ? std::count_if(state_.seats.begin(), state_.seats.end(), waits)
+                : std::count_if(state_.members.begin(), state_.members.end(), [&](const LiveMember& member) {
+                    return member.seat && (!state_.seats[*member.seat].is_person || waits(state_.seats[*member.seat]));
+                  });
+    const auto shown = static_cast<std::size_t>(present);
+    view::Lobby lobby{is_list ? std::min(shown, size() - 1) : shown,
+                      size(),
+                      in_ms(seat_.ready_us),
+                      in_ms(seat_.ready_us + time.leave_after_s * kSecond),
+                      {}};
+    const auto since_us = is_list ? std::optional{seat_.ready_us} : state_.lobby_us;
+    const bool is_open = is_list || state_.phase == RoomPhase::kLobby;
+    if (is_open && since_us && time.lobby_s > 0 && room_.study.group().auto_start) {
+      lobby.at<"until_ms">() = in_ms(*since_us + time.lobby_s * kSecond);
     }
     return lobby;
   }

@@ -156,7 +156,7 @@ class RoomChange {
   void happen(const Explored& e) {
     auto& person = who();
     if (e.start.is_null()) return;
-    auto found = explored(study_, AskedWorld{e.world, e.map, e.start});
+    auto found = explored(study_, e);
     for (auto& half_space : found.conveyed) {
       if (std::ranges::find(person.explored, half_space) == person.explored.end()) {
         person.explored.push_back(std::move(half_space));

@@ -8,6 +8,7 @@
 
 #include "kith/live/room_event.hpp"
 #include "message_json.hpp"
+#include "room_state.hpp"
 
 namespace kith {
 
@@ -16,7 +17,28 @@ namespace kith {
 [[nodiscard]] inline Decision refused(std::string reason, std::string text) {
   return {{}, Refusal{std::move(reason), std::move(text)}};
 }
+/// As whoever says something that is not within these limits is told.
+[[nodiscard]] inline Decision refused(const Limits& limits) {
+  return refused(std::string{limits.reason}, std::string{limits.text});
+}
 [[nodiscard]] inline Decision nothing_to_do() { return {}; }
+
+/// What decides about the commands of a kind of sender.
+class Decider {
+ public:
+  Decider(const RoomParts& room, const RoomCommand& command, std::int64_t now_us)
+      : room_{room}, state_{room.state}, command_{command}, now_us_{now_us} {}
+
+ protected:
+  [[nodiscard]] Decision accepted(RoomHappening what) const {
+    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
+  }
+
+  const RoomParts& room_;
+  const Room::State& state_;
+  const RoomCommand& command_;
+  std::int64_t now_us_;
+};
 
 /// Names a kind of event.
 template <typename Event>

@@ -3,7 +3,6 @@
 #include "exploration.hpp"
 #include "kith/domains/judgement.hpp"
 #include "room_body.hpp"
-#include "room_state.hpp"
 
 namespace kith {
 
@@ -15,12 +14,12 @@ constexpr std::size_t kMostAnswerBytes = 4000;
 constexpr std::size_t kMostExplorations = 2000;  // of one person
 
 // What a person asks for.
-class SeatDecider {
+class SeatDecider : Decider {
   static constexpr std::string_view kIncomplete = "This message is not complete.";
 
  public:
   SeatDecider(const RoomParts& room, std::size_t seat, const RoomCommand& command, std::int64_t now_us)
-      : room_{room}, state_{room.state}, seat_{room.state.seats[seat]}, command_{command}, now_us_{now_us} {}
+      : Decider{room, command, now_us}, seat_{room.state.seats[seat]} {}
 
   [[nodiscard]] Decision decide() const {
     if (!is_command(RoomSender::kSeat, command_.type)) return refused("unknown-type", "This message is not known.");
@@ -188,9 +187,6 @@ class SeatDecider {
   [[nodiscard]] static Decision bad_body() { return refused("bad-body", std::string{kIncomplete}); }
   [[nodiscard]] static Decision not_now() { return refused("not-now", "This is not possible at the moment."); }
   [[nodiscard]] static Decision too_late() { return refused("too-late", "The group has moved on."); }
-  [[nodiscard]] Decision accepted(RoomHappening what) const {
-    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
-  }
 
   [[nodiscard]] bool is_right(StartIndex demo, const JudgedPath& judged) const {
     const auto& atlas = *room_.study.atlas;
@@ -233,20 +229,15 @@ class SeatDecider {
     return value ? std::optional{Json(*value)} : std::nullopt;
   }
 
-  const RoomParts& room_;
-  const Room::State& state_;
   const LiveSeat& seat_;
-  const RoomCommand& command_;
-  std::int64_t now_us_;
 };
 
 // What the service reports: who came, who is there.
-class ServerDecider {
+class ServerDecider : Decider {
   static constexpr std::string_view kIncomplete = "the description of the person is incomplete";
 
  public:
-  ServerDecider(const RoomParts& room, const RoomCommand& command, std::int64_t now_us)
-      : room_{room}, state_{room.state}, command_{command}, now_us_{now_us} {}
+  using Decider::Decider;
 
   [[nodiscard]] Decision decide() const {
     if (!command_.body.is_object()) return refused("bad-body", "the body is not an object");
@@ -274,10 +265,8 @@ class ServerDecider {
     const auto planned = next_group_in(room_, now_us_);
     if (!planned) return refused("not-now", "No group can be formed at the moment.");
     const auto& [cell, simulated, seats] = *planned;
-    if (wish != Grouped{cell.strategy, cell.composition, simulated, seats, wish.room}) {
-      return refused(std::string{kPlanned.reason}, std::string{kPlanned.text});
-    }
-    return accepted(std::move(wish));
+    const bool is_planned = wish == Grouped{cell.strategy, cell.composition, simulated, seats, wish.room};
+    return is_planned ? accepted(std::move(wish)) : refused(kPlanned);
   }
 
   [[nodiscard]] std::optional<Decision> closed(OfKind<Seated>) const {
@@ -300,9 +289,6 @@ class ServerDecider {
   [[nodiscard]] Decision ask(const Present& present) const { return presence(present, true); }
 
  private:
-  [[nodiscard]] Decision accepted(RoomHappening what) const {
-    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
-  }
   [[nodiscard]] static Decision started() { return refused("started", "This group has already started."); }
 
   [[nodiscard]] Decision join_seat(std::size_t seat) const {
@@ -320,18 +306,13 @@ class ServerDecider {
 
   template <typename Event>
   [[nodiscard]] Decision presence(const Event& event, bool is_here) const {
-    if (event.seat > state_.seats.size()) return refused(std::string{kPlace.reason}, std::string{kPlace.text});
+    if (event.seat > state_.seats.size()) return refused(kPlace);
     const auto& seat = state_.seats[event.seat - 1];
     if (!seat.is_person || seat.status == SeatStatus::kEmpty) {
       return refused("not-joined", "Nobody has joined with this link yet.");
     }
     return seat.is_here == is_here ? nothing_to_do() : accepted(event);
   }
-
-  const RoomParts& room_;
-  const Room::State& state_;
-  const RoomCommand& command_;
-  std::int64_t now_us_;
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "room_body.hpp"
-#include "room_state.hpp"
 
 namespace kith {
 
@@ -9,19 +8,16 @@ using namespace happening;  // NOLINT(google-build-using-namespace): every event
 
 namespace {
 
-class FacilitatorDecider {
+class FacilitatorDecider : Decider {
  public:
-  FacilitatorDecider(const RoomParts& room, const RoomCommand& command, std::int64_t now_us)
-      : room_{room}, state_{room.state}, command_{command}, now_us_{now_us} {}
+  using Decider::Decider;
 
   [[nodiscard]] Decision decide() const {
     if (!is_command(RoomSender::kFacilitator, command_.type)) {
       return refused("unknown-type", "There is no command '" + command_.type + "'.");
     }
     if (!command_.body.is_object()) return refused("bad-body", "The body of a command must be an object.");
-    if (!read_within<std::string>(command_.body.value("reason", Json{}), kReason)) {
-      return refused(std::string{kReason.reason}, std::string{kReason.text});
-    }
+    if (!read_within<std::string>(command_.body.value("reason", Json{}), kReason)) return refused(kReason);
     if (state_.phase == RoomPhase::kEnded) return refused("not-now", "This session has ended.");
     const bool is_for_groups = command_.type != MessageSent::kKind.command && command_.type != Ended::kKind.command;
     if (room_.setup.is_waiting_list && is_for_groups) {
@@ -65,12 +61,12 @@ class FacilitatorDecider {
   }
 
   [[nodiscard]] Decision ask(MessageSent message) const {
-    if (message.seat && *message.seat > state_.seats.size()) return no_seat();
+    if (message.seat && *message.seat > state_.seats.size()) return refused(kPlace);
     return accepted(std::move(message));
   }
 
   [[nodiscard]] Decision ask(Readmitted readmitted) const {
-    if (!is_person(readmitted.seat)) return no_seat();
+    if (!is_person(readmitted.seat)) return refused(kPlace);
     const auto& seat = state_.seats[readmitted.seat - 1];
     if (seat.status == SeatStatus::kActive || seat.status == SeatStatus::kEmpty) return nothing_to_do();
     if (!seat.member || seat.readiness != Readiness::kReady || !is_running(state_)) {
@@ -84,7 +80,7 @@ class FacilitatorDecider {
   }
 
   [[nodiscard]] Decision ask(Simulated simulated) const {
-    if (!is_person(simulated.seat)) return no_seat();
+    if (!is_person(simulated.seat)) return refused(kPlace);
     const auto& seat = state_.seats[simulated.seat - 1];
     if (!is_running(state_) && state_.phase != RoomPhase::kLobby) return not_now("The lessons are over.");
     const auto& holder = state_.members[*seat.member].seat;
@@ -119,11 +115,7 @@ class FacilitatorDecider {
   }
 
  private:
-  [[nodiscard]] Decision accepted(RoomHappening what) const {
-    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
-  }
   [[nodiscard]] static Decision not_now(std::string text) { return refused("not-now", std::move(text)); }
-  [[nodiscard]] static Decision no_seat() { return refused(std::string{kPlace.reason}, std::string{kPlace.text}); }
   [[nodiscard]] bool is_person(std::size_t seat) const {
     return seat <= state_.seats.size() && state_.seats[seat - 1].is_person;
   }
@@ -131,11 +123,6 @@ class FacilitatorDecider {
     const auto& types = room_.study.spec.learner_types;
     return std::any_of(types.begin(), types.end(), [&](const LearnerType& type) { return type.letter == letter; });
   }
-
-  const RoomParts& room_;
-  const Room::State& state_;
-  const RoomCommand& command_;
-  std::int64_t now_us_;
 };
 
 }  // namespace

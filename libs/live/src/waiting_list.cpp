@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "kith/live/screening.hpp"
+#include "message_json.hpp"
 #include "room_state.hpp"
 
 namespace kith {
@@ -127,12 +128,10 @@ std::int64_t longest_wait_us(const RoomParts& room) {
 }
 
 Json to_json(const PlannedGroup& group) {
-  Json seats = Json::array();
-  for (const auto& seat : group.seats) seats.push_back(seat ? Json(*seat) : Json{});
   return {{"strategy", group.cell.strategy},
           {"composition", group.cell.composition},
           {"simulated", group.simulated},
-          {"seats", seats}};
+          {"seats", written(group.seats)}};
 }
 
 std::optional<PlannedGroup> Room::next_group(std::int64_t now_us) const {

@@ -26,8 +26,8 @@ constexpr std::string_view kPrinted =
 
 TEST(Protocol, OfParticipantsIsThatOfThePages) {
   TypeScript print;
-  print.add(kPrinted);
-  print.add(R"(import type { Frame, Path, PlayBoard } from '../shared/board/types';
+  print.text = kPrinted;
+  print.text += R"(import type { Frame, Path, PlayBoard } from '../shared/board/types';
 import type { KeyPress } from '../shared/play/drive';
 import type { Bracket } from '../shared/play/brackets';
 import type { Runs } from '../shared/play/runs';
@@ -35,10 +35,10 @@ import type { Stores } from '../shared/stores';
 
 export type { Frame };
 
-)");
+)";
   print.type_of<view::Participant>();
   print.add_commands<RoomSender::kSeat>("Commands");
-  print.add(R"(export type Stage = ParticipantView['stage'];
+  print.text += R"(export type Stage = ParticipantView['stage'];
 export type CommandType = keyof Commands;
 
 export interface Message<T extends CommandType = CommandType> {
@@ -46,18 +46,18 @@ export interface Message<T extends CommandType = CommandType> {
   id: string;
   body: Commands[T];
 }
-)");
-  expect_printed("live/protocol.ts", print.text());
+)";
+  expect_printed("live/protocol.ts", print.text);
 }
 
 TEST(Protocol, OfFacilitatorsHasTheRoomsAndTheirCommands) {
   TypeScript print;
-  print.add(kPrinted);
-  print.add("import type { Path, PlayBoard } from '../shared/board/types';\n\n");
+  print.text = kPrinted;
+  print.text += "import type { Path, PlayBoard } from '../shared/board/types';\n\n";
   print.type_of<view::RoomRow>();
   print.type_of<view::RoomDetail>();
   print.add_commands<RoomSender::kFacilitator>("RoomCommands");
-  expect_printed("facilitator/room.ts", print.text());
+  expect_printed("facilitator/room.ts", print.text);
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 #pragma once
 
+#include <set>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "kith/live/room_event.hpp"
-#include "message_json.hpp"
 #include "room_body.hpp"
 
 namespace kith::testing {
@@ -24,103 +22,80 @@ class TypeScript {
     } else if constexpr (std::is_same_v<T, std::string>) {
       return "string";
     } else if constexpr (HasMembers<T>) {
-      return T::kType.empty() ? "{ " + joined<T>("; ") + " }" + spread<T>() : named<T>();
+      const std::string name{T::kType};
+      if (!name.empty() && !printed_.insert(name).second) return name;
+      const auto fields = fields_of<T>(false, name.empty() ? "; " : ";\n  ");
+      const auto others = others_of<T>();
+      if (name.empty()) return "{ " + fields + " }" + others;
+      const auto body = "{\n  " + fields + ";\n}" + others;
+      text += "export " + (others.empty() ? "interface " + name + " " + body : "type " + name + " = " + body + ";") +
+              "\n\n";
+      return name;
+    } else if constexpr (kIsOptional<T>) {
+      return type_of<typename T::value_type>();
     } else {
-      return element_of(static_cast<const T*>(nullptr));
+      const auto element = type_of<typename T::value_type>();
+      const bool is_one = element.find(' ') == std::string::npos || element.back() == '}';
+      return is_one ? element + "[]" : "(" + element + ")[]";
     }
   }
 
   /// The interface of what this sender may ask for, by command.
   template <RoomSender kSender>
   void add_commands(const std::string& name) {
-    std::string members;
-    [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) { ((members += command<kSender, kIndex>()), ...); }
+    text += "export interface " + name + " {\n";
+    [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) { (add_command<kSender, kIndex>(), ...); }
     (std::make_index_sequence<std::variant_size_v<RoomHappening>>{});
-    text_ += "export interface " + name + " {\n" + members + "}\n\n";
+    text += "}\n\n";
   }
 
-  void add(std::string_view text) { text_ += text; }
-  [[nodiscard]] const std::string& text() const { return text_; }
+  std::string text;
 
  private:
-  template <typename T>
-  std::string named() {
-    const std::string name{T::kType};
-    if (std::find(printed_.begin(), printed_.end(), name) != printed_.end()) return name;
-    printed_.push_back(name);
-    const auto members = joined<T>(";\n  ");
-    if (const auto more = spread<T>(); !more.empty()) {
-      text_ += "export type " + name + " = {\n  " + members + ";\n}" + more + ";\n\n";
-    } else {
-      text_ += "export interface " + name + " {\n  " + members + ";\n}\n\n";
-    }
-    return name;
-  }
-
-  template <typename T>
-  std::string element_of(const std::optional<T>*) {
-    return type_of<T>();
-  }
-  template <typename T>
-  std::string element_of(const std::vector<T>*) {
-    const auto element = type_of<T>();
-    const bool is_one = element.find(' ') == std::string::npos || element.back() == '}';
-    return is_one ? element + "[]" : "(" + element + ")[]";
-  }
-
-  // "of: number"; nothing of members that another one's stand in place of, and of what the server adds to a command.
-  template <typename Owner, typename T>
-  std::string line_of(const Member<Owner, T>& member) {
-    if (member.name.empty() || (std::is_same_v<T, Json> && member.type.empty())) return {};
-    const bool may_miss = member.may_miss || (member.asked && (member.asked->may_miss || kIsOptional<T>));
-    auto type = std::string{member.type};
-    if constexpr (!std::is_same_v<T, Json>) type = type.empty() ? type_of<T>() : type;
-    if (kIsOptional<T> && !member.may_miss) type += " | null";
-    return std::string{member.name} + (may_miss ? "?: " : ": ") + type;
-  }
-
-  template <typename T>
-  std::string joined(const std::string& separator, bool is_command = false) {
+  // "of: number; ..." without what the server adds to a command, and the reason that all of facilitators have.
+  template <typename Owner>
+  std::string fields_of(bool is_command, const std::string& separator) {
     std::string all;
-    const T none{};
-    for_each_member(none, [&](const auto& member, const auto&) {
-      const bool is_reason = is_command && member.name == "reason";
-      if (is_reason || (is_command && !member.asked)) return;
-      if (const auto line = line_of(member); !line.empty()) all += (all.empty() ? "" : separator) + line;
-    });
+    const auto add = [&]<typename Part, typename T>(const Member<Part, T>& member) {
+      if (member.name.empty() || (is_command && (!member.asked || member.name == "reason"))) return;
+      auto type = std::string{member.type};
+      if constexpr (!std::is_same_v<T, Json>) type = type.empty() ? type_of<T>() : type;
+      if (type.empty()) return;
+      if (kIsOptional<T> && !member.may_miss) type += " | null";
+      const bool may_miss = member.may_miss || (member.asked && (member.asked->may_miss || kIsOptional<T>));
+      all += (all.empty() ? "" : separator) + std::string{member.name} + (may_miss ? "?: " : ": ") + type;
+    };
+    std::apply([&](const auto&... member) { (add(member), ...); }, Owner::kMembers);
     return all;
   }
 
   // " & Path": types whose members stand among the others.
-  template <typename T>
-  std::string spread() {
+  template <typename Owner>
+  std::string others_of() {
     std::string all;
-    const T none{};
-    for_each_member(none, [&]<typename V>(const auto& member, const V&) {
+    const auto add = [&]<typename Part, typename T>(const Member<Part, T>& member) {
       if (!member.name.empty()) return;
-      if constexpr (std::is_same_v<V, Json>) {
+      if constexpr (std::is_same_v<T, Json>) {
         all += " & " + std::string{member.type};
       } else {
-        all += " & Partial<" + type_of<V>() + ">";
+        all += " & Partial<" + type_of<T>() + ">";
       }
-    });
+    };
+    std::apply([&](const auto&... member) { (add(member), ...); }, Owner::kMembers);
     return all;
   }
 
   template <RoomSender kSender, std::size_t kIndex>
-  std::string command() {
+  void add_command() {
     using Event = std::variant_alternative_t<kIndex, RoomHappening>;
-    if constexpr (kind_asked_for(kSender, Event::kKind.command) != kIndex) {
-      return {};
-    } else {
-      const auto members = joined<Event>("; ", true);
-      const auto body = members.empty() ? "Record<string, never>" : "{ " + members + " }";
-      return "  " + std::string{Event::kKind.command} + ": " + body + ";\n";
+    if constexpr (kind_asked_for(kSender, Event::kKind.command) == kIndex) {
+      const auto fields = fields_of<Event>(true, "; ");
+      const auto body = fields.empty() ? "Record<string, never>" : "{ " + fields + " }";
+      text += "  " + std::string{Event::kKind.command} + ": " + body + ";\n";
     }
   }
 
-  std::vector<std::string> printed_;
-  std::string text_;
+  std::set<std::string> printed_;
 };
 
 }  // namespace kith::testing

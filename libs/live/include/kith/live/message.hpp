@@ -77,10 +77,7 @@ template <Name kName, typename T, Name kType = "", bool kMayMiss = false>
 struct Field {
   using Value = T;
   T value{};
-  template <typename Owner>
-  static constexpr Member<Owner, T> member_of() {
-    return {kName.view(), kMayMiss, &Field::value, kType.view()};
-  }
+  static constexpr Member<Field, T> member() { return {kName.view(), kMayMiss, &Field::value, kType.view()}; }
 };
 /// Left out unless it is set.
 template <Name kName, typename T, Name kType = "">
@@ -102,7 +99,7 @@ struct Record : Fields... {
   }
 
   static constexpr std::string_view kType = kName.view();
-  static constexpr auto kMembers = std::tuple{Fields::template member_of<Record>()...};
+  static constexpr auto kMembers = std::tuple{Fields::member()...};
 
  private:
   template <Name kField, typename T, Name kAs, bool kMayMiss>

@@ -73,6 +73,9 @@ inline constexpr auto kServer = RoomSender::kServer;
 inline constexpr bool kLogged = true, kUnlogged = false;
 inline constexpr PersonalMember kItsQuery{"query", PersonalMember::What::kQuery};
 inline constexpr PersonalMember kItsName{"name", PersonalMember::What::kNameIfAny};
+inline constexpr PersonalMember kNewName{"name", PersonalMember::What::kName};
+inline constexpr PersonalMember kItsWords{"text", PersonalMember::What::kWords};
+inline constexpr PersonalMember kItsAnswers{"answers", PersonalMember::What::kAnswers};
 
 /// Somebody took a free seat; on a waiting list there are no members.
 struct Joined {
@@ -109,8 +112,7 @@ struct Checked {
 
 /// What somebody wants to be called.
 struct Named {
-  static constexpr RoomEventKind kKind{
-      "named", "name", kSeat, kUnlogged, false, true, {PersonalMember{"name", PersonalMember::What::kName}}};
+  static constexpr RoomEventKind kKind{"named", "name", kSeat, kUnlogged, false, true, {kNewName}};
   std::string name;
   static constexpr auto kMembers =
       members("name", &Named::name, Limits{.longest = kMostNameBytes, .is_one_line = true});
@@ -222,13 +224,7 @@ struct Explored {
 
 /// Answers to the questions at the end, by id.
 struct QuestionsAnswered {
-  static constexpr RoomEventKind kKind{"questions",
-                                       "questions",
-                                       kSeat,
-                                       kUnlogged,
-                                       false,
-                                       true,
-                                       {PersonalMember{"answers", PersonalMember::What::kAnswers}}};
+  static constexpr RoomEventKind kKind{"questions", "questions", kSeat, kUnlogged, false, true, {kItsAnswers}};
   Json answers;
   static constexpr auto kMembers = members("answers", &QuestionsAnswered::answers,
                                            Limits{.fits = is_object, .type = "Record<string, string | number>"});
@@ -341,13 +337,7 @@ struct Extended {
 
 /// To a seat, or to everybody.
 struct MessageSent {
-  static constexpr RoomEventKind kKind{"message",
-                                       "message",
-                                       kFacilitator,
-                                       kUnlogged,
-                                       false,
-                                       true,
-                                       {PersonalMember{"text", PersonalMember::What::kWords}}};
+  static constexpr RoomEventKind kKind{"message", "message", kFacilitator, kUnlogged, false, true, {kItsWords}};
   std::string text;
   std::optional<std::size_t> seat{};
   std::string reason;
