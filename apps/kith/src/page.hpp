@@ -10,7 +10,8 @@
 namespace kith::cli {
 
 /// The page that shows a JSON document.
-/// @param page  kReportPage, kLessonPage or kAuditPage. @throws kith::Error (kInfeasible) if kith was built without pages.
+/// @param page  kReportPage, kLessonPage or kAuditPage. @throws kith::Error (kInfeasible) if kith was built without
+/// pages.
 [[nodiscard]] std::string page_with(const std::string& document, std::string_view page);
 
 /// @throws kith::Error (kInfeasible) if kith was built without the engine of lesson files.

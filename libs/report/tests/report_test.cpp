@@ -331,8 +331,7 @@ TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
   const auto document = Json::parse(build_report(scratch / "run"));
   std::set<std::string> tables;
   for (const auto& [name, table] : document.at("tables").items()) tables.insert(name);
-  EXPECT_THAT(tables,
-              ::testing::UnorderedElementsAre("cells", "teams", "completion", "timings", "parameters"));
+  EXPECT_THAT(tables, ::testing::UnorderedElementsAre("cells", "teams", "completion", "timings", "parameters"));
   EXPECT_THAT(document.at("notes").dump(), HasSubstr("Only teams were recorded"));
   EXPECT_TRUE(document.contains("beliefs"));  // these are computed again
 }
