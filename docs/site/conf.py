@@ -46,11 +46,16 @@ def add_contents(app, name, source):
     source[0] += toctree("Decisions", ["adr/*"])
 
 
+# What CMake adds to the site beside the pages: its tag, the page that leads there, before which text, and the sentence.
+ADDED = [("api", "docs/library", "## ", 'The <a href="../api/index.html">reference</a> has every class and function.'),
+         ("commands", "docs/README", "To look", 'Every <a href="../commands/index.html">command</a> has a page.')]
+
+
 def add_reference(app, name, source):
-    """Where Doxygen has written the reference of the libraries, their page leads to it."""
-    if name == "docs/library" and tags.has("api"):
-        link = 'The <a href="../api/index.html">reference</a> has every class and function.'
-        source[0] = source[0].replace("\n## ", f"\n{link}\n\n## ", 1)
+    """Leads to what Doxygen and the program say of themselves, where they were asked."""
+    for tag, page, before, sentence in ADDED:
+        if name == page and tags.has(tag):
+            source[0] = source[0].replace(f"\n{before}", f"\n{sentence}\n\n{before}", 1)
 
 
 def setup(app):
