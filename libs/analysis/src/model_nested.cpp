@@ -12,16 +12,18 @@ namespace kith {
 namespace {
 
 // By how far values are from the mean of their cell: what the groups have in common counts as chance.
-void add_far_value_of_cells(const ModelData& data, const FixedEffects& fixed, std::vector<std::string>& warnings) {
-  std::vector<double> leverages, residuals;
-  for (const auto count : fixed.design.counts) leverages.push_back(1.0 / static_cast<double>(count));
+void add_far_value_of_cells(const ModelData& data, const CellDesign& design, std::vector<std::string>& warnings) {
+  std::vector<double> means(design.counts.size(), 0.0), leverages, residuals;
+  for (const auto count : design.counts) leverages.push_back(1.0 / static_cast<double>(count));
+  for (std::size_t i = 0; i < data.values.size(); ++i) means[design.cell_of[i]] += data.values[i];
+  for (std::size_t cell = 0; cell < means.size(); ++cell) means[cell] *= leverages[cell];
   double squares = 0.0;
   for (std::size_t i = 0; i < data.values.size(); ++i) {
-    residuals.push_back(data.values[i] - fixed.centre - fixed.means[fixed.design.cell_of[i]]);
+    residuals.push_back(data.values[i] - means[design.cell_of[i]]);
     squares += residuals.back() * residuals.back();
   }
-  const auto df = static_cast<double>(residuals.size() - leverages.size());
-  warn_of_far_value(data.values, residuals, leverages, fixed.design.cell_of, df, squares, warnings);
+  const auto df = static_cast<double>(residuals.size()) - static_cast<double>(means.size());
+  warn_of_far_value(data.values, residuals, leverages, design.cell_of, df, squares, warnings);
 }
 
 using Kind = ResultKind;
@@ -108,7 +110,7 @@ void add_nested_warnings(const NestedModel& model, const ModelData& data, Findin
     }
   }
 
-  add_far_value_of_cells(data, model.fixed, finding.warnings);
+  add_far_value_of_cells(data, model.fixed.design, finding.warnings);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(CsvTables, HaveAllDigitsAndTheFieldNamesOfDocuments) {
   ASSERT_EQ(files.size(), analysis.findings.front().tables.size() + 1);
   EXPECT_EQ(files.front().name, "y-1.csv");
   EXPECT_THAT(files.front().text, AllOf(::testing::StartsWith("term,df,sum_of_squares,f,p_value,partial_eta_squared,"),
-                                        HasSubstr("\ng,2,54.")));
+                                        HasSubstr("\ng,2,54,27,")));
   EXPECT_THAT(files.back().text, HasSubstr("y-1.csv,y,Analysis of variance (type II)"));
 }
 
