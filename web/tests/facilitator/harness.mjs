@@ -87,8 +87,9 @@ export class Harness {
     }
   }
 
-  violations(page) {
-    return violations(page, this.axe);
+  // Of all rules of axe, or of some.
+  violations(page, rules) {
+    return violations(page, this.axe, { rules });
   }
 
   async shoot(page, name) {

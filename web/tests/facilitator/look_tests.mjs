@@ -6,11 +6,12 @@ import { openTab, openRoom } from './harness.mjs';
 export function lookTests({ withPage, violations, shoot }) {
   for (const dark of [false, true]) {
     const tone = dark ? 'dark' : 'light';
+    const rules = dark ? ['color-contrast'] : undefined; // that the theme may break; otherwise all
     it(`has no serious axe violation on any tab or dialog, ${tone}`, async () => {
       await withPage({ dark, calm: true }, async (page) => {
         const check = async (name) => {
           await shoot(page, `${name}-${tone}`);
-          assert.deepEqual(await violations(page), [], name);
+          assert.deepEqual(await violations(page, rules), [], name);
         };
         for (const tab of ['Set-up', 'Rooms', 'Data', 'Log']) {
           await openTab(page, tab);
@@ -203,7 +204,7 @@ export function lookTests({ withPage, violations, shoot }) {
           const [, first, end] = /^(right|wrong).*?(?:, then changed to a (right|wrong) one)?$/.exec(text);
           assert.equal(shown, end ? `${first} \u2192 ${end}` : first, text);
         }
-        assert.deepEqual(await violations(page), []);
+        assert.deepEqual(await violations(page, ['color-contrast']), []);
         await shoot(page, `changed-${dark ? 'dark' : 'light'}`);
       });
     }
@@ -218,30 +219,28 @@ export function lookTests({ withPage, violations, shoot }) {
       ...detail,
       people: detail.people.map((member, i) => ({ ...member, kind: kinds[i % 2][0], kinds: kinds[i % 2][1] })),
     });
-    for (const [title, people] of [['Room A1', 3], ['Room A2', 12]]) {
-      for (const dark of [false, true]) {
-        await withPage({ calm: true, dark }, async (page, mock) => {
-          await openRoom(page, title);
-          const heads = () => page.$$eval('.group thead th', (all) => all.map((head) => head.textContent));
-          assert.ok(!(await heads()).includes('Kind'), 'a column of a study that does not ask');
-          mock.change = ask;
-          mock.showAll();
-          await page.waitForSelector('.group .kind');
-          assert.ok((await heads()).includes('Kind'));
-          const shown = await page.$$eval('.group tbody .kind', (cells) => cells.map((cell) => cell.textContent));
-          assert.equal(shown.length, people);
-          assert.deepEqual([...new Set(shown.filter((text) => text !== ''))], ['imitating', 'cannot tell yet']);
-          await page.hover('.group .kind >> nth=0');
-          assert.equal(await page.textContent('#tip'), 'imitating 95 %, bayesian 4 %, slipping 1 %');
-          await page.hover('.group .kind >> nth=1');
-          assert.match(await page.textContent('#tip'), /^bayesian 40 %, imitating 25 %, decaying 20 %/);
-          const group = await page.locator('.group').boundingBox();
-          const last = await page.locator('.group tbody tr >> nth=1 >> .answer-cell').last().boundingBox();
-          assert.ok(last.x + last.width <= group.x + group.width + 1, 'the latest answers are out of sight');
-          assert.deepEqual(await violations(page), []);
-          await shoot(page, `kinds-${people}-${dark ? 'dark' : 'light'}`);
-        });
-      }
+    for (const [title, people, dark] of [['Room A1', 3, false], ['Room A2', 12, true]]) {
+      await withPage({ calm: true, dark }, async (page, mock) => {
+        await openRoom(page, title);
+        const heads = () => page.$$eval('.group thead th', (all) => all.map((head) => head.textContent));
+        assert.ok(!(await heads()).includes('Kind'), 'a column of a study that does not ask');
+        mock.change = ask;
+        mock.showAll();
+        await page.waitForSelector('.group .kind');
+        assert.ok((await heads()).includes('Kind'));
+        const shown = await page.$$eval('.group tbody .kind', (cells) => cells.map((cell) => cell.textContent));
+        assert.equal(shown.length, people);
+        assert.deepEqual([...new Set(shown.filter((text) => text !== ''))], ['imitating', 'cannot tell yet']);
+        await page.hover('.group .kind >> nth=0');
+        assert.equal(await page.textContent('#tip'), 'imitating 95 %, bayesian 4 %, slipping 1 %');
+        await page.hover('.group .kind >> nth=1');
+        assert.match(await page.textContent('#tip'), /^bayesian 40 %, imitating 25 %, decaying 20 %/);
+        const group = await page.locator('.group').boundingBox();
+        const last = await page.locator('.group tbody tr >> nth=1 >> .answer-cell').last().boundingBox();
+        assert.ok(last.x + last.width <= group.x + group.width + 1, 'the latest answers are out of sight');
+        assert.deepEqual(await violations(page), []);
+        await shoot(page, `kinds-${people}-${dark ? 'dark' : 'light'}`);
+      });
     }
   });
 

@@ -202,7 +202,8 @@ export class Person {
   // Of all rules, or of some. Text in the colour of its ground is no violation to axe, which takes it for hidden.
   async violations(axe, rules) {
     if (rules?.length === 0) return [];
-    await this.page.evaluate(axe); // from the debugger, so that the page's policy stays as it is
+    // From the debugger, so that the page's policy stays as it is.
+    if (!(await this.page.evaluate(() => 'axe' in window))) await this.page.evaluate(axe);
     const { violations, incomplete } = await this.page.evaluate(
       (runOnly) => window.axe.run(document, { resultTypes: ['violations', 'incomplete'], ...(runOnly ? { runOnly } : {}) }),
       rules,
