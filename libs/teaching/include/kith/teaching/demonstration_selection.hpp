@@ -39,7 +39,7 @@ struct SelectionOptions {
 /// pictures, then chance [jayaraman2024, section III-D].
 ///
 /// @param cache  makes it faster and changes no result.
-/// @param belief  a copy, which learns along.
+/// @param belief  of which a copy learns along.
 /// @param taught_region  R_n, minimal, with the prior.
 /// @param visited  what may not be chosen.
 /// @return the unit; without demonstrations if none has gain.
