@@ -197,11 +197,13 @@ class Inspection {
     for (std::size_t k = 0; k < domain_.num_features(); ++k) {
       if (k == reference) continue;
       const auto same = while_others_stay(domain_, atlas_->policy_bec_half_spaces(), k, reference);
-      const auto& weights = domain_.weights().raw;
       if (same.low || same.high) {
         const Ratio own{domain_.weights().integer[k], std::abs(domain_.weights().integer[reference])};
-        out_ += fmt::format("  {} (here it {} {:.4g} times what {} weighs)\n", bracket_in_words(domain_, same),
-                            weights[k] < 0 ? "costs" : "is worth", std::abs(own.value()), unit);
+        const auto end = [](const std::optional<Ratio>& ratio) {
+          return ratio ? fmt::format("{:.4g}", ratio->value()) : std::string{"any"};
+        };
+        out_ += fmt::format("  {} weighs {:.4g} times what {} does: {} to {}\n", domain_.wording(k).one, own.value(),
+                            unit, end(same.low), end(same.high));
       } else {
         out_ += "  " + domain_.wording(k).one + " has any weight: no world tests it, and nothing about it is taught\n";
       }

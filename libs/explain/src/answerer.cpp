@@ -126,8 +126,7 @@ std::string Answerer::because(const std::optional<Contrast>& contrast, const std
   if (!contrast) return nothing;
   if (contrast->robot_counts == contrast->alternative_counts) return "the other path is just as good";
   if (!conveyed_by(domain_, *contrast)) return "the other path is worth just as much to it";
-  return has_several(*contrast) && is_detour(domain_, *contrast) ? detour(*contrast)
-                                                                 : reason_in_tries(atlas_, *contrast);
+  return has_several(*contrast) && is_detour(domain_, *contrast) ? detour(*contrast) : reason(atlas_, *contrast);
 }
 
 bool Answerer::has_several(const Contrast& contrast) const {

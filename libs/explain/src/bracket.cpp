@@ -42,38 +42,23 @@ Bracket bracket_of(std::size_t k, std::size_t r, std::span<const IntegerVector> 
   return bracket;
 }
 
-constexpr std::size_t kMostDecimals = 19;  // 64 bits have no more
-
-// A number of 0 or more with at most so many decimals, rounded down or up, exactly.
-std::string rounded(const Ratio& ratio, std::size_t decimals, bool up) {
-  Int128 scaled = ratio.numerator;
-  for (std::size_t i = 0; i < decimals; ++i) scaled *= 10;
-  auto whole = scaled / ratio.denominator;
-  if (up && scaled % ratio.denominator != 0) ++whole;
-  std::string digits;
-  for (; whole != 0 || digits.size() <= decimals; whole /= 10)
-    digits += static_cast<char>('0' + static_cast<int>(whole % 10));
-  std::reverse(digits.begin(), digits.end());
-  if (decimals == 0) return digits;
-  digits.insert(digits.size() - decimals, 1, '.');
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.back() == '.') digits.pop_back();
-  return digits;
+// n / d for d > 0, down or up.
+std::int64_t whole(const Ratio& ratio, bool up) {
+  const auto n = ratio.numerator / ratio.denominator, rest = ratio.numerator % ratio.denominator;
+  return n + (up && rest > 0 ? 1 : 0) - (!up && rest < 0 ? 1 : 0);
 }
 
 // The text of `least` and of `most`, empty if there is none.
 std::pair<std::string, std::string> texts_of(const std::optional<Ratio>& least, const std::optional<Ratio>& most) {
-  constexpr double kLarge = 10.0, kSmall = 0.1;
-  const auto text = [&](const std::optional<Ratio>& end, std::size_t more, bool up) -> std::string {
-    if (!end) return {};
-    auto decimals = (end->value() >= kLarge ? 0 : 2) + more;
-    for (double x = end->value(); x > 0.0 && x < kSmall; x *= 10.0) ++decimals;
-    return rounded(*end, std::min(decimals, kMostDecimals), up);
-  };
-  for (std::size_t more = 0;; ++more) {
-    std::pair texts{text(least, more, false), text(most, more, true)};
-    if (!least || !most || texts.first != texts.second || *least == *most || more == kMostDecimals) return texts;
+  constexpr double kNear = 0.1;
+  if (least && most) {
+    const double n = std::nearbyint(least->value());
+    if (n >= 1.0 && n - least->value() <= kNear && std::abs(most->value() - n) <= kNear) {
+      const auto text = std::to_string(std::llround(n));
+      return {text, text};
+    }
   }
+  return {least ? std::to_string(whole(*least, false)) : "", most ? std::to_string(whole(*most, true)) : ""};
 }
 
 std::optional<Ratio> times(const std::optional<Ratio>& ratio, std::int64_t sign) {
@@ -93,12 +78,9 @@ std::string amount(const Wording& wording, const std::string& number) {
 
 // What is at least `least` and at most `most`, if there are such; both are 0 or more.
 std::string range_in_words(const Wording& unit, const std::optional<Ratio>& least, const std::optional<Ratio>& most) {
-  const bool has_least = least && least->numerator > 0;
   const auto [from, to] = texts_of(least, most);
-  if (has_least && most && *least == *most) {
-    const bool is_exact = rounded(*least, kMostDecimals, false) == from;
-    return (is_exact ? "" : "about ") + amount(unit, from);
-  }
+  const bool has_least = least && from != "0";
+  if (has_least && from == to) return (*least == *most ? "" : "about ") + amount(unit, from);
   if (has_least && most) return amount(unit, from + " to " + to);
   if (has_least) return "more than " + amount(unit, from);
   if (most && most->numerator == 0) return "nothing";

@@ -91,13 +91,12 @@ std::optional<IntegerVector> counts_along(const Mdp& mdp, const Trajectory& path
 }  // namespace
 
 std::string choice_between(const Domain& domain, MdpIndex world, const Trajectory& robot, const Trajectory& other) {
-  const std::string unlike = "later steps count less for it, and its own path is worth more";
-  if (robot.repeats_from && other.repeats_from) return unlike;
+  if (robot.repeats_from && other.repeats_from) return kAllInAll;
   if (other.repeats_from) return "it would rather finish than go on for ever";
   if (robot.repeats_from) return "it would rather go on for ever than finish";
   const auto own = counts_along(domain.mdp(world), robot);
   const auto others = counts_along(domain.mdp(world), other);
-  if (!own || !others || *own == *others || sign_of_dot(domain.weights().integer, *own - *others) < 0) return unlike;
+  if (!own || !others || *own == *others || sign_of_dot(domain.weights().integer, *own - *others) < 0) return kAllInAll;
   return choice_in_words(domain, *own, *others);
 }
 
@@ -107,33 +106,17 @@ std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const
   const auto conveyed = conveyed_by(domain, contrast);
   if (!conveyed) throw std::invalid_argument{"reason: both paths are worth the same"};
   const auto world = atlas.id(contrast.demo).mdp;
-  const auto sentence = in_words(domain, *conveyed, together);
+  const auto fact = told(domain, *conveyed, together);
   if (is_exact(domain.mdp(world))) {
-    return choice_in_words(domain, whole_counts(domain, contrast.robot_counts),
-                           whole_counts(domain, contrast.alternative_counts)) +
-           (sentence.empty() ? "" : ": " + sentence);
+    return explained(choice_in_words(domain, whole_counts(domain, contrast.robot_counts),
+                                     whole_counts(domain, contrast.alternative_counts)),
+                     fact);
   }
-  if (domain.mdp(world).is_deterministic()) {
-    return choice_between(domain, world, contrast.robot, contrast.alternative) +
-           (sentence.empty() ? "" : ": " + sentence);
-  }
+  if (domain.mdp(world).is_deterministic())
+    return explained(choice_between(domain, world, contrast.robot, contrast.alternative), fact);
   const auto difference = contrast.robot_counts - contrast.alternative_counts;
   const auto risk = risk_in_words(domain, world, difference);
-  return (risk.empty() ? "" : risk + ": ") + on_average_in_words(domain, difference) +
-         (sentence.empty() ? "" : "; " + sentence);
-}
-
-std::string reason_in_tries(const Atlas& atlas, const Contrast& contrast) {
-  const auto& domain = atlas.domain();
-  const auto world = atlas.id(contrast.demo).mdp;
-  const auto conveyed = is_exact(domain.mdp(world)) ? std::nullopt : conveyed_by(domain, contrast);
-  if (!conveyed) return reason(atlas, contrast);
-  const auto difference = contrast.robot_counts - contrast.alternative_counts;
-  const auto risks = risks_of(domain, world, difference);
-  const auto statement = statement_in_tries(domain, difference, *conveyed, risks, atlas.policy_bec_half_spaces());
-  if (!statement) return reason(atlas, contrast);
-  const auto risk = risk_in_words(domain, world, difference);
-  return (risk.empty() ? "" : risk + ": ") + in_words(domain, *statement, risks);
+  return explained(risk.empty() ? on_average_in_words(domain, difference) : risk, fact);
 }
 
 bool is_detour(const Domain& domain, const Contrast& contrast) {

@@ -178,6 +178,7 @@ Json for_page(Json curriculum) {
     for (auto& board : boards) {
       if (!board["runs"].is_null()) continue;
       shorten(board);
+      board.erase("flip");
       if (board.contains("alternative")) shorten(board["alternative"]);
     }
   };

@@ -13,7 +13,7 @@ bool is_gerund(const std::string& word) {
 }  // namespace
 
 Thing thing(const Wording& wording, std::int64_t n) {
-  Thing result{times(wording, n), times_fewer(wording, n)};
+  Thing result{times(wording, n), times_fewer(wording, n), n};
   const auto first = wording.one.substr(0, wording.one.find(' '));
   if (!result.words.empty() && std::isdigit(static_cast<unsigned char>(result.words.front())) != 0) {
     result.number = Number::kPlural;

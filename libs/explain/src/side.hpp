@@ -16,6 +16,7 @@ enum class Number { kSingular, kPlural, kUnknown };
 struct Thing {
   std::string words;
   std::string fewer;  // so many fewer: "2 fewer steps", "not crossing rubble"
+  std::int64_t n = 0;
   Number number = Number::kUnknown;
 };
 

@@ -16,14 +16,13 @@ namespace kith {
 namespace {
 
 constexpr std::int64_t kLargest = 1000;  // beyond that nobody compares numbers
-constexpr std::int64_t kMultiples = 3;
 
 // The smallest round number that is at least n (`up`), or the largest that is at most n: whole numbers up to 20, then
-// multiples of 5 up to 100, of 50 up to 1000.
+// multiples of 5 up to 100, of 10 up to 1000.
 std::int64_t round_number(std::int64_t n, bool up) {
-  constexpr std::int64_t kAny = 20, kHundred = 100, kStep = 5;
-  std::int64_t unit = n <= kAny ? 1 : kStep;
-  for (auto end = kHundred; n > end; end *= 10) unit *= 10;
+  constexpr std::int64_t kAny = 20, kHundred = 100, kStep = 5, kLargeStep = 10;
+  const auto large = n > kHundred ? kLargeStep : kStep;
+  const auto unit = n <= kAny ? 1 : large;
   return (n / unit + (up && n % unit != 0 ? 1 : 0)) * unit;
 }
 
@@ -49,11 +48,9 @@ bool is_short(const IntegerVector& normal) {
   return is_round && is_light(normal);
 }
 
-// n * multiple / unit for n >= 0, down or up, as a round number.
-std::int64_t scaled(std::int64_t n, std::int64_t multiple, std::int64_t unit, bool up) {
-  const Int128 product = Int128{n} * multiple;
-  const auto whole = static_cast<std::int64_t>((product + (up ? unit - 1 : 0)) / unit);
-  return round_number(whole, up);
+// n / unit for n >= 0, down or up, as a round number.
+std::int64_t scaled(std::int64_t n, std::int64_t unit, bool up) {
+  return round_number(n / unit + (up && n % unit != 0 ? 1 : 0), up);
 }
 
 // The weights that satisfy all of them; nothing if there are none, or their rays are too long to compute with.
@@ -81,11 +78,9 @@ class Candidates {
     const auto d = normal.size();
     for (std::size_t anchor = 0; anchor < d; ++anchor) {
       if (normal[anchor] == 0) continue;
-      for (std::int64_t multiple = 1; multiple <= kMultiples; ++multiple) {
-        const auto unit = std::abs(normal[anchor]);
-        add_weaker(multiple, unit);
-        if (d <= kFew) add_others(multiple, unit, anchor);
-      }
+      const auto unit = std::abs(normal[anchor]);
+      add_weaker(unit);
+      if (d <= kFew) add_others(unit, anchor);
     }
     std::sort(all_.begin(), all_.end(), [](const Candidate& a, const Candidate& b) {
       return rank(a) != rank(b) ? rank(a) < rank(b) : a.normal < b.normal;
@@ -105,33 +100,33 @@ class Candidates {
 
   // Whoever agrees with the robot on costs and gains, and with the constraint, agrees with this: what stands on the
   // heavier side is rounded up, the rest down.
-  void add_weaker(std::int64_t multiple, std::int64_t unit) {
+  void add_weaker(std::int64_t unit) {
     std::vector<bool> up(normal_.size());
     for (std::size_t k = 0; k < normal_.size(); ++k) {
       const bool is_cost = domain_.weights().integer[k] < 0;
       up[k] = is_cost == (normal_[k] < 0);
     }
-    add(multiple, unit, up);
+    add(unit, up);
   }
 
-  void add_others(std::int64_t multiple, std::int64_t unit, std::size_t anchor) {
+  void add_others(std::int64_t unit, std::size_t anchor) {
     const auto d = normal_.size();
     for (std::size_t bits = 0; bits < (std::size_t{1} << d); ++bits) {
       if ((bits >> anchor & 1U) != 0) continue;  // the anchor itself is not rounded
       std::vector<bool> up(d);
       for (std::size_t k = 0; k < d; ++k) up[k] = (bits >> k & 1U) != 0;
-      add(multiple, unit, up);
+      add(unit, up);
     }
   }
 
-  void add(std::int64_t multiple, std::int64_t unit, const std::vector<bool>& up) {
+  void add(std::int64_t unit, const std::vector<bool>& up) {
     constexpr double kWeakest = 0.5;
     Candidate candidate{IntegerVector(normal_.size()), 0.0, 0.0};
-    const double scale = static_cast<double>(multiple) / static_cast<double>(unit);
+    const double scale = 1.0 / static_cast<double>(unit);
     double gap = 0.0, weight = 0.0;
     for (std::size_t k = 0; k < normal_.size(); ++k) {
       if (normal_[k] == 0) continue;
-      const auto size = scaled(std::abs(normal_[k]), multiple, unit, up[k]);
+      const auto size = scaled(std::abs(normal_[k]), unit, up[k]);
       if (size > kLargest) return;
       candidate.normal[k] = normal_[k] < 0 ? -size : size;
       const double own = std::abs(domain_.weights().unit[static_cast<Eigen::Index>(k)]);
@@ -279,67 +274,6 @@ std::vector<std::optional<ShortStatement>> short_statements(const Domain& domain
     }
   }
   return statements;
-}
-
-namespace {
-
-struct InTries {
-  StatementInTries statement;
-  double rank = 0.0;
-};
-
-// What happens in some tries, each number rounded up or down; nothing if too little of it is left.
-std::optional<InTries> rounded(const Domain& domain, const IntegerVector& difference, int tries, std::size_t ups) {
-  constexpr double kWeakest = 0.35, kWorth = 0.05;
-  constexpr std::int64_t kMost = 100;
-  InTries result{{tries, IntegerVector(difference.size())}, 0.0};
-  double gap = 0.0, weight = 0.0, length = std::log2(static_cast<double>(tries));
-  for (std::size_t k = 0; k < difference.size(); ++k) {
-    const double exact =
-        tries * std::abs(static_cast<double>(difference[k])) / static_cast<double>(domain.count_scale());
-    const bool up = (ups >> k & 1U) != 0;
-    const auto size = round_number(static_cast<std::int64_t>(up ? std::ceil(exact) : std::floor(exact)), up);
-    if (size > kMost) return std::nullopt;
-    result.statement.counts[k] = difference[k] < 0 ? -size : size;
-    const double own = std::abs(domain.weights().unit[static_cast<Eigen::Index>(k)]);
-    gap += own * std::abs(static_cast<double>(size) - exact);
-    weight += own * exact;
-    length += std::log2(1.0 + static_cast<double>(size));
-  }
-  if (gap > kWeakest * weight || result.statement.counts.is_zero() || !is_light(result.statement.counts)) {
-    return std::nullopt;
-  }
-  result.rank = gap / weight + kWorth * length;
-  return result;
-}
-
-}  // namespace
-
-std::optional<StatementInTries> statement_in_tries(const Domain& domain, const IntegerVector& difference,
-                                                   const HalfSpace& half_space, std::span<const std::size_t> named,
-                                                   std::span<const HalfSpace> together) {
-  constexpr std::array kTries{2, 3, 4, 5, 10, 20, 50, 100};
-  const auto d = domain.num_features();
-  std::vector<InTries> candidates;
-  for (const int tries : kTries) {
-    for (std::size_t ups = 0; ups < (std::size_t{1} << d); ++ups) {
-      auto candidate = rounded(domain, difference, tries, ups);
-      const auto is_told = [&](std::size_t k) { return candidate->statement.counts[k] != 0; };
-      if (candidate && std::all_of(named.begin(), named.end(), is_told)) candidates.push_back(*candidate);
-    }
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const InTries& a, const InTries& b) { return a.rank < b.rank; });
-  const std::array<HalfSpace, 1> alone{half_space};
-  const auto before = region_of(domain.prior(), {}, d);
-  for (const auto& region :
-       {region_of(domain.prior(), alone, d), region_of(domain.prior(), with(together, half_space), d)}) {
-    for (const auto& candidate : candidates) {
-      const HalfSpace said{candidate.statement.counts};
-      if (region && region->implies(said) && !(before && before->implies(said))) return candidate.statement;
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace kith

@@ -23,6 +23,12 @@ RobotUpdate plainest(const Atlas& atlas, const Cone& known) {
   return said;
 }
 
+std::string in_turn(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const auto& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
 }  // namespace
 
 UpdateInWords update_in_words(const Atlas& atlas, const Cone& known) {
@@ -37,8 +43,8 @@ UpdateInWords update_in_words(const Atlas& atlas, const Cone& known) {
     return words;
   }
   words.text = "The robot has been updated. ";
-  words.text += words.now.empty() ? "It now decides some things differently." : "Now " + listed(words.now) + ".";
-  if (!words.still.empty()) words.text += " As before, " + listed(words.still) + ".";
+  words.text += words.now.empty() ? "It now decides some things differently." : "Now " + in_turn(words.now) + ".";
+  if (!words.still.empty()) words.text += " As before, " + in_turn(words.still) + ".";
   return words;
 }
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <tuple>
 #include <utility>
 
+#include "kith/explain/reason.hpp"
 #include "kith/explain/statement.hpp"
 #include "side.hpp"
 
@@ -66,7 +68,7 @@ std::string compared_with_mixed(const Side& plain, const std::string& than, cons
          other.verb();
 }
 
-// "crossing rubble costs more than 2 steps", "4 steps cost more than stopping at the charger is worth".
+// "crossing rubble costs more than 2 steps", "stopping at the charger is worth less than 4 steps".
 // @param even  both sides weigh the same to the robot: it says so with "at least as much as".
 std::string compared(const Side& more, const Side& less, bool even) {
   if (more.empty()) {
@@ -92,11 +94,19 @@ std::string compared(const Side& more, const Side& less, bool even) {
     if (even) return more.amount() + more.is() + "no less than " + less.amount();
     return more.amount() + (more.mixed() ? " outweigh " : " outweighs ") + less.amount();
   }
-  const std::string together = less.empty() && more.things().size() > 1 ? " together " : " ";
-  const auto start = more.words() + together + more.verb();
-  if (less.empty()) return start + (even ? " nothing or more" : " something");
-  const bool same_verb = more.costs.empty() == less.costs.empty();
-  return start + (even ? " at least as much as " : " more than ") + less.words() + (same_verb ? "" : " " + less.verb());
+  if (less.empty()) {
+    const std::string together = more.things().size() > 1 ? " together " : " ";
+    return more.words() + together + more.verb() + (even ? " nothing or more" : " something");
+  }
+  // A gain is measured in costs; of two costs, or two gains, what there is less of in the other.
+  const bool is_only_one = more.things().size() == 1 && less.things().size() == 1;
+  const bool is_less = more.gains.empty() == less.gains.empty()
+                           ? is_only_one && less.things().front().n < more.things().front().n
+                           : more.gains.empty();
+  const auto& [subject, object] = is_less ? std::tie(less, more) : std::tie(more, less);
+  const std::string than =
+      even ? (is_less ? " at most as much as " : " at least as much as ") : (is_less ? " less than " : " more than ");
+  return subject.words() + " " + subject.verb() + than + object.words();
 }
 
 }  // namespace
@@ -185,7 +195,20 @@ std::string sentence_of(const Domain& domain, const std::optional<ShortStatement
   return "if " + sentence_of(domain, statement->condition->normal()) + ", " + sentence;
 }
 
+// What people who are taught can keep in mind.
+std::string told(const Domain& domain, const std::optional<ShortStatement>& statement) {
+  if (!statement || statement->condition) return "";
+  const auto& normal = statement->said.normal();
+  const auto things = std::count_if(normal.begin(), normal.end(), [](std::int64_t n) { return n != 0; });
+  auto sentence = things > static_cast<std::ptrdiff_t>(kMostThings) ? std::string{} : sentence_of(domain, normal);
+  return std::count(sentence.begin(), sentence.end(), ' ') < kMostWords ? sentence : "";
+}
+
 }  // namespace
+
+std::string told(const Domain& domain, const HalfSpace& half_space, std::span<const HalfSpace> together) {
+  return told(domain, short_statement(domain, half_space, together));
+}
 
 std::string in_words(const Domain& domain, const HalfSpace& half_space, std::span<const HalfSpace> together) {
   return sentence_of(domain, short_statement(domain, half_space, together));
@@ -195,7 +218,7 @@ std::vector<std::string> each_in_words(const Domain& domain, std::span<const Hal
                                        std::span<const HalfSpace> together) {
   std::vector<std::string> sentences;
   for (const auto& statement : short_statements(domain, half_spaces, together)) {
-    sentences.push_back(sentence_of(domain, statement));
+    sentences.push_back(told(domain, statement));
   }
   return sentences;
 }
@@ -265,61 +288,16 @@ std::string count_text(std::int64_t count, std::int64_t scale) {
 
 namespace {
 
-// n >= 0 to two significant digits.
-std::int64_t about(double n) {
-  constexpr double kThreeDigits = 99.5;  // rounded
-  double unit = 1.0;
-  while (n / unit >= kThreeDigits) unit *= 10.0;
-  return std::llround(n / unit) * std::llround(unit);
-}
-
-// "about 35 more steps", "falling into a hole about 31 fewer times", "about one more step".
-std::string more_or_fewer(const Wording& wording, std::int64_t n, bool more) {
-  const auto& many = wording.many;
-  if (many.find("{n} times") != std::string::npos && n == 1) {
-    auto text = many;
-    replace_first(text, "{n} times", more ? "about once more" : "about once less");
-    return text;
-  }
-  if (n == 1) {
-    auto text = one_more(wording.one);
-    const bool has_number = text.rfind("one more", 0) == 0;
-    if (!more) replace_first(text, has_number ? "one more" : "once more", has_number ? "one fewer" : "once less");
-    replace_first(text, has_number ? "one " : "once ", has_number ? "about one " : "about once ");
-    return text;
-  }
-  const auto number = "about " + std::to_string(n) + (more ? " more" : " fewer");
-  return with_number(many.find(kNumber) == std::string::npos ? many + " {n} times" : many, number);
-}
-
-// What is left of a difference in so many tries once it is rounded, and whether it still speaks for the robot's choice.
-struct RoundedDifference {
-  std::vector<std::string> parts;
-  double value = 0.0;
-};
-
 double per_try(const Domain& domain, std::int64_t count) {
   return static_cast<double>(count) / static_cast<double>(domain.count_scale());
 }
 
-RoundedDifference in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
-  RoundedDifference result;
-  std::vector<std::string> less, more;
-  for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    constexpr double kMany = 10.0;  // from so many on nobody adds them up
-    const double once = per_try(domain, difference[k]);
-    const bool is_each_time = std::abs(once) >= kMany;
-    const auto rounded = about(std::abs(once) * (is_each_time ? 1.0 : tries));
-    if (rounded == 0) continue;
-    result.value += domain.weights().unit[static_cast<Eigen::Index>(k)] * (once < 0.0 ? -1.0 : 1.0) *
-                    static_cast<double>(rounded) * (is_each_time ? tries : 1.0);
-    const bool is_good = (domain.weights().integer[k] < 0) == (once < 0.0);
-    auto text = more_or_fewer(domain.wording(k), rounded, once > 0.0);
-    (is_good ? less : more).push_back(text + (is_each_time ? " per try" : ""));
-  }
-  result.parts = std::move(less);  // what speaks for the choice first
-  result.parts.insert(result.parts.end(), more.begin(), more.end());
-  return result;
+// To two significant digits.
+std::int64_t about(double n) {
+  constexpr double kThreeDigits = 99.5;  // rounded
+  double unit = 1.0;
+  while (std::abs(n) / unit >= kThreeDigits) unit *= 10.0;
+  return std::llround(n / unit) * std::llround(unit);
 }
 
 // Whether some action brings the feature in less than half of the cases, and most actions do not bring it in half of
@@ -342,35 +320,37 @@ bool is_by_chance(const Mdp& mdp, std::size_t feature) {
   return has_chance && 2 * usual < all;
 }
 
-// In how many tries a difference can be told: in 10 if 100 would not tell of more things, in 1000 if in 100 what
-// decides would be rounded away; nothing if it makes almost no difference in either.
-std::optional<int> tries_to_tell(const Domain& domain, const IntegerVector& difference) {
-  const auto in_100 = in_tries(domain, difference, 100).parts.size();
-  for (const int tries : {10, 100, 1000}) {
-    const auto told = in_tries(domain, difference, tries);
-    if (told.parts.empty() || told.value <= 0.0) continue;
-    if (tries > 10 || told.parts.size() == in_100) return tries;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::string on_average_in_words(const Domain& domain, const IntegerVector& difference) {
-  const bool is_discounted = domain.mdp(MdpIndex{0}).discount() < 1.0;
-  const std::string later = is_discounted ? ", with later steps counting less," : "";
-  const auto tries = tries_to_tell(domain, difference);
-  if (!tries) return "in 1000 tries the robot's choice makes almost no difference";
-  return "in " + std::to_string(*tries) + " tries" + later + " the robot's choice means " +
-         listed(in_tries(domain, difference, *tries).parts);
+  if (domain.mdp(MdpIndex{0}).discount() < 1.0) return kAllInAll;  // the counts are none that anybody sees
+  // The weightiest thing for the choice, and against it.
+  const auto d = domain.num_features();
+  std::optional<std::size_t> best, worst;
+  const auto weight = [&](std::size_t k) { return Int128{domain.weights().integer[k]} * difference[k]; };
+  for (std::size_t k = 0; k < d; ++k) {
+    if (weight(k) > 0 && (!best || weight(k) > weight(*best))) best = k;
+    if (weight(k) < 0 && (!worst || weight(k) < weight(*worst))) worst = k;
+  }
+  for (const int tries : {10, 100}) {
+    IntegerVector counts(d);
+    for (const auto k : {best, worst}) {
+      if (k) counts[*k] = about(tries * per_try(domain, difference[*k]));
+    }
+    const bool is_all = (!best || counts[*best] != 0) && (!worst || counts[*worst] != 0);
+    if (!is_all || !best || sign_of_dot(domain.weights().integer, counts) <= 0) continue;
+    IntegerVector both(d);  // a single thing is said to be more of it
+    if (!worst) both[*best] = 1;
+    return "in " + std::to_string(tries) + " tries " + choice_in_words(domain, counts + both, both);
+  }
+  return kAllInAll;
 }
 
 std::vector<std::size_t> risks_of(const Domain& domain, MdpIndex world, const IntegerVector& difference) {
-  const auto tries = tries_to_tell(domain, difference);
-  if (!tries) return {};
+  constexpr double kOften = 0.005;  // once in 100 tries, rounded
   std::vector<std::size_t> risked, avoided;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    const bool is_told = about(*tries * std::abs(per_try(domain, difference[k]))) > 0;
+    const bool is_told = std::abs(per_try(domain, difference[k])) >= kOften;
     if (domain.weights().integer[k] >= 0 || !is_told || !is_by_chance(domain.mdp(world), k)) continue;
     (difference[k] > 0 ? risked : avoided).push_back(k);
   }
@@ -384,26 +364,6 @@ std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVec
   names.reserve(risks.size());
   for (const auto k : risks) names.push_back(domain.wording(k).one);
   return (difference[risks.front()] > 0 ? "it risks " : "it avoids the risk of ") + listed(names);
-}
-
-std::string in_words(const Domain& domain, const StatementInTries& statement, std::span<const std::size_t> risks) {
-  Side more, less;
-  for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    const auto entry = statement.counts[k];
-    if (entry == 0) continue;
-    const bool is_cost = domain.weights().integer[k] < 0;
-    const bool is_risk = std::find(risks.begin(), risks.end(), k) != risks.end();
-    const auto& wording = domain.wording(k);
-    auto what = thing(wording, std::abs(entry));
-    if (!is_risk) what.words = times_more(wording, std::abs(entry));
-    if (is_risk && std::abs(entry) == 1 && wording.many.find("{n} times") != std::string::npos) what.words += " once";
-    (is_cost == (entry < 0) ? more : less).add(std::move(what), is_cost);
-  }
-  const bool is_discounted =
-      domain.mdp(MdpIndex{0}).discount() < 1.0 &&
-      std::any_of(statement.counts.begin(), statement.counts.end(), [](std::int64_t n) { return std::abs(n) > 1; });
-  return "in " + std::to_string(statement.tries) + " tries, " +
-         (is_discounted ? "with later steps counting less, " : "") + compared(more, less, false);
 }
 
 std::string counts_text(const Domain& domain, const IntegerVector& counts) {

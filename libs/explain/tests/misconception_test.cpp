@@ -63,11 +63,10 @@ TEST(Misbelief, KnowsWhatThePersonSatisfies) {
 TEST(Predictions, AreToldAsReasonsAre) {
   const auto& domain = delivery();
   EXPECT_EQ(prediction_in_words(domain, {1, 0, 6}, {0, 0, 8}), "it would rather cross rubble than take 2 more steps");
-  EXPECT_EQ(prediction_in_words(domain, {0, 0, 8}, {0, 1, 10}),
-            "it would rather do without stopping at the charger than take 2 more steps");
+  EXPECT_EQ(prediction_in_words(domain, {0, 0, 8}, {0, 1, 10}), "it will not take 2 more steps to stop at the charger");
   EXPECT_EQ(prediction_in_words(domain, {0, 0, 8}, {0, 0, 6}), "it would take 2 more steps for nothing");
   EXPECT_EQ(prediction_in_words(domain, {0, 0, 6}, {0, 1, 6}),
-            "it would do without stopping at the charger for nothing");
+            "it would not stop at the charger, although that costs nothing");
   EXPECT_THROW(static_cast<void>(prediction_in_words(domain, {0, 0, 6}, {0, 0, 8})), std::invalid_argument);
 }
 

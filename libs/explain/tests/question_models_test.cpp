@@ -16,7 +16,8 @@ using ::testing::HasSubstr;
 TEST(AskOnDemand, ComparesWithOneOtherStep) {
   const auto reply = ask("why stairs in world 0", "rescue-floor");
   EXPECT_EQ(reply.text,
-            "A stair happens in world 0; it prefers 2 stairs to 4 more steps: 2 steps cost more than a stair.");
+            "A stair happens in world 0; it would rather take 2 stairs than take 4 more steps: a stair costs less than "
+            "2 steps.");
   const auto& example = reply.examples.at(0);
   ASSERT_TRUE(example.alternative.has_value());
   ASSERT_TRUE(example.decisive.has_value());
@@ -29,8 +30,8 @@ TEST(AskOnDemand, ComparesWithThoseToWhomAFeatureMeansMore) {
   const auto& atlas = atlas_of("rescue-floor");
   const auto reply = ask("why smoke in world 8", "rescue-floor");
   EXPECT_EQ(reply.text,
-            "Going through smoke happens in world 8; it prefers going through smoke once more to 7 more steps: 7 steps "
-            "cost more than going through smoke.");
+            "Going through smoke happens in world 8; it would rather go through smoke once more than take 7 more "
+            "steps: going through smoke costs less than 7 steps.");
   const auto& mdp = atlas.domain().mdp(MdpIndex{8});
   EXPECT_TRUE(mdp.is_terminal(reply.examples.at(0).alternative->states.back()));
   EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; it happens on every sensible path."));

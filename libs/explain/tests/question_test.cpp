@@ -372,7 +372,7 @@ TEST(AskHowMuch, ListsWhatItsBehaviourTells) {
   EXPECT_EQ(
       reply.text,
       "From what it does you can conclude: crossing rubble costs more than 2 steps; stopping at the charger is worth "
-      "more than crossing rubble costs.");
+      "more than crossing rubble.");
   EXPECT_EQ(reply.examples.size(), 2u);
   for (const auto& example : reply.examples) EXPECT_TRUE(example.alternative.has_value()) << example.text;
   EXPECT_EQ(ask("how much is the charger worth").question, "How much is stopping at the charger worth?");

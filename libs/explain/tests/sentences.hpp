@@ -87,12 +87,11 @@ class ReadSentence {
     return std::nullopt;
   }
 
-  // "2 steps", "stopping at the charger is worth", with "plus what 2 steps cost"; the verb is that of the sentence
-  // where there is none.
-  IntegerVector side(int sign) {
+  // "2 steps", with "plus what 2 steps cost"; without a verb, what it is to the robot.
+  IntegerVector side() {
     auto things = list();
-    const int own = verb().value_or(sign);
-    auto sum = scaled(things, own);
+    const auto own = verb();
+    auto sum = scaled(things, own ? *own : sign_of(things));
     if (takes(" plus what ")) {
       things = list();
       const auto other = verb();
@@ -100,6 +99,13 @@ class ReadSentence {
       sum += scaled(things, other.value_or(1));
     }
     return sum;
+  }
+
+  [[nodiscard]] int sign_of(const IntegerVector& things) const {
+    for (std::size_t k = 0; k < things.size(); ++k) {
+      if (things[k] != 0) return (domain_.weights().integer[k] < 0) == (things[k] > 0) ? -1 : 1;
+    }
+    return 1;
   }
 
   static IntegerVector scaled(const IntegerVector& v, std::int64_t n) {
@@ -121,8 +127,8 @@ class ReadSentence {
     const auto subject = scaled(first, *sign);
     if (takes(" something") || takes(" nothing or more")) return subject;
     if (takes(" less than nothing") || takes(" at most nothing")) return scaled(subject, -1);
-    if (takes(" more than ") || takes(" at least as much as ")) return subject - side(*sign);
-    if (takes(" less than ") || takes(" no more than ")) return side(*sign) - subject;
+    if (takes(" more than ") || takes(" at least as much as ")) return subject - side();
+    if (takes(" less than ") || takes(" no more than ") || takes(" at most as much as ")) return side() - subject;
     is_understood_ = false;
     return subject;
   }

@@ -118,7 +118,7 @@ TEST(ShortStatement, KeepsLessonsTrueAndShort) {
       for (const auto& shown : component.demonstrations) {
         for (const auto& one : shown.conveys) expect_true_and_short(domain, one, shown.conveys);
         expect_short_numbers(shown.reason, 100'000);
-        const auto said = in_words(domain, shown.main, shown.conveys);
+        const auto said = told(domain, shown.main, shown.conveys);
         EXPECT_TRUE(shown.reason.ends_with(said)) << shown.reason;
       }
       for (const auto& test : component.tests) {
@@ -154,7 +154,7 @@ void expect_light(const IntegerVector& counts) {
     EXPECT_EQ(sizes[2], 1);
   }
   for (const auto size : sizes) {
-    EXPECT_EQ(size % (size <= 20 ? 1 : size <= 100 ? 5 : 50), 0) << size;
+    EXPECT_EQ(size % (size <= 20 ? 1 : size <= 100 ? 5 : 10), 0) << size;
     EXPECT_LE(size, 1000);
   }
 }
@@ -216,40 +216,6 @@ TEST(ShortStatements, LeaveOutWhatAnotherSaysAndNothingElse) {
     }
   }
   EXPECT_GT(left_out, 0u);
-}
-
-// For every demonstration's comparisons with one other action.
-TEST(StatementInTries, FollowsFromThePolicy) {
-  const auto& atlas = atlas_of(uncertain_domains().front());
-  const auto& domain = atlas.domain();
-  const auto policy = as_vector(atlas.policy_bec_half_spaces());
-  const auto known = Cone::intersection(joined(policy, {domain.prior().begin(), domain.prior().end()}));
-  ASSERT_TRUE(known.has_value());
-  std::size_t tried = 0, said = 0;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    const auto choices = domain.mdp(atlas.id(demo).mdp).choices(atlas.id(demo).start);
-    for (std::size_t c = 0; c < choices.size(); ++c) {
-      const auto difference = atlas.feature_counts(demo) - atlas.deviation_counts(demo, c);
-      const auto conveyed = preference_of_robot(domain, difference);
-      if (!conveyed || !is_trade(domain, *conveyed)) continue;
-      ++tried;
-      const auto risks = risks_of(domain, atlas.id(demo).mdp, difference);
-      const auto statement = statement_in_tries(domain, difference, *conveyed, risks, policy);
-      if (!statement) continue;
-      ++said;
-      SCOPED_TRACE(in_words(domain, *statement, risks));
-      EXPECT_TRUE(known->implies(HalfSpace{statement->counts}));
-      expect_light(statement->counts);
-      for (std::size_t k = 0; k < domain.num_features(); ++k) {
-        const double exact =
-            statement->tries * static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
-        // Next to it: the next round number is at most 5 away.
-        EXPECT_LT(std::abs(static_cast<double>(statement->counts[k]) - exact), 5.0);
-      }
-      for (const auto risk : risks) EXPECT_NE(statement->counts[risk], 0);
-    }
-  }
-  EXPECT_GT(2 * said, tried);  // most can be said
 }
 
 TEST(ShortStatement, SaysShortConstraintsAsTheyAre) {

@@ -69,10 +69,10 @@ TEST(Update, SaysThatNothingChanged) {
 TEST(Update, IsSaidInPlainWords) {
   const auto free = curriculum_of("item-delivery", updated("rubble_free")).update.value();
   EXPECT_EQ(free.text,
-            "The robot has been updated. Now crossing rubble is better than 2 steps. As before, 4 steps cost more than "
-            "stopping at the charger is worth and stopping at the charger is worth more than 2 steps cost.");
+            "The robot has been updated. Now crossing rubble is better than 2 steps. As before, stopping at the "
+            "charger is worth less than 4 steps; stopping at the charger is worth more than 2 steps.");
   const auto halved = curriculum_of("item-delivery", updated("charger_halved")).update.value();
-  EXPECT_THAT(halved.now, ::testing::ElementsAre("2 steps cost more than stopping at the charger is worth"));
+  EXPECT_THAT(halved.now, ::testing::ElementsAre("stopping at the charger is worth less than 2 steps"));
   EXPECT_THAT(halved.still, ::testing::Contains("crossing rubble costs more than 2 steps"));
 }
 

@@ -46,8 +46,8 @@ struct Bracket {
                                         std::size_t reference);
 
 /// The ends of a bracket as numbers without a sign, empty where there is none: of a cost its least and its most, else
-/// those of `low` and `high`. Rounded so that no more is said than is known: to two decimals, from 10 on to none, below
-/// 0.1 to two digits, and to as many more as it takes that two ends are not one.
+/// those of `low` and `high`. In whole numbers, rounded so that no more is said than is known; one number for two ends
+/// that are within a tenth of it.
 struct BracketEnds {
   std::string from, to;
 };

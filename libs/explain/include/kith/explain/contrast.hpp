@@ -46,17 +46,11 @@ struct Contrast {
                                          const Trajectory& other);
 
 /// What the robot does, rather than what, because of what: reason() of both counts. In worlds where counts are
-/// expectations, risk_in_words(), on_average_in_words() and, if there is a short one, in_words() of what is conveyed.
+/// expectations, risk_in_words() or else on_average_in_words(), and told() of what is conveyed.
 /// @param together  other constraints that are conveyed at the same time; see short_statement().
 /// @throws std::invalid_argument if both paths count the same, or the alternative is worth more to the robot.
 [[nodiscard]] std::string reason(const Atlas& atlas, const Contrast& contrast,
                                  std::span<const HalfSpace> together = {});
-
-/// reason(), where counts are expectations in one comparison that people can picture: risk_in_words() and in_words() of
-/// statement_in_tries(), true for all weights that give the robot's policy: "it risks falling into the water: in 10
-/// tries, 30 more steps cost more than falling into the water once". reason() if there is no such statement.
-/// @throws std::invalid_argument as reason().
-[[nodiscard]] std::string reason_in_tries(const Atlas& atlas, const Contrast& contrast);
 
 /// The contrast that conveys a constraint, at the earliest state of the robot's path where there is one: with a path
 /// that somebody expects and that differs from the robot's by a multiple of the constraint's normal; where nobody

@@ -19,7 +19,7 @@ struct ShortStatement {
 
 /// A short statement that follows from a constraint. The constraint itself if its numbers are short: where feature
 /// counts are exact, up to 1000; otherwise round numbers up to 1000 (any up to 20, then multiples of 5, above 100 of
-/// 50), of which one may be large: the second largest is at most 10 or, if the statement is about three things or more,
+/// 10), of which one may be large: the second largest is at most 10 or, if the statement is about three things or more,
 /// 3, and the others are 1. If they are not, a statement with such numbers that holds for all weights that satisfy the
 /// constraint and the prior or, failing that, `together` and the prior as well or, failing that, the constraint, the
 /// prior and `condition`. Of several the one that says most in few digits; rounding changes at most half of what the
@@ -38,24 +38,5 @@ struct ShortStatement {
 [[nodiscard]] std::vector<std::optional<ShortStatement>> short_statements(const Domain& domain,
                                                                           std::span<const HalfSpace> half_spaces,
                                                                           std::span<const HalfSpace> together = {});
-
-/// What a choice changes in a few tries, as a statement about reward weights: counts . w >= 0.
-struct StatementInTries {
-  int tries = 0;         ///< 2 to 100.
-  IntegerVector counts;  ///< How much more often each feature occurs, rounded; shape [d], no more than 100 each.
-};
-
-/// A statement in tries that follows from what a comparison conveys: the expected difference in the fewest tries in
-/// which all that matters happens a whole number of times, each number rounded up or down to a round one. It
-/// holds for all weights that satisfy the constraint and the prior or, failing that, `together` as well. Rounding
-/// changes at most 35 % of what the difference weighs to the robot.
-/// @param difference  of expected feature counts, in units of 1 / Domain::count_scale(); shape [d].
-/// @param half_space  what it conveys: preference_of_robot().
-/// @param named  features that must not be rounded away.
-/// @return Nothing if no such statement with numbers that people can keep in mind follows.
-[[nodiscard]] std::optional<StatementInTries> statement_in_tries(const Domain& domain, const IntegerVector& difference,
-                                                                 const HalfSpace& half_space,
-                                                                 std::span<const std::size_t> named,
-                                                                 std::span<const HalfSpace> together = {});
 
 }  // namespace kith

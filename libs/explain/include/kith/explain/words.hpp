@@ -24,30 +24,30 @@ namespace kith {
 /// @return Nothing if no short statement follows from the constraint.
 [[nodiscard]] std::string in_words(const Domain& domain, const HalfSpace& half_space,
                                    std::span<const HalfSpace> together = {});
-/// Sentences of constraints that are conveyed together, in their order: of short_statements(), empty where there is
-/// none.
+/// How much a sentence for people who are taught may weigh against each other, and how long it may be.
+constexpr std::size_t kMostThings = 2;
+constexpr int kMostWords = 16;
+/// in_words() for people who are taught: nothing if it weighs more than kMostThings, has a condition, or is longer than
+/// kMostWords.
+[[nodiscard]] std::string told(const Domain& domain, const HalfSpace& half_space,
+                               std::span<const HalfSpace> together = {});
+/// told() of constraints that are conveyed together, in their order: of short_statements(), empty where there is none.
 /// @param together  further constraints that are conveyed at the same time.
 [[nodiscard]] std::vector<std::string> each_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces,
                                                      std::span<const HalfSpace> together = {});
 /// The same without empty and repeated ones.
 [[nodiscard]] std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces);
-/// What a choice changes in expectation: "in 10 tries the robot's choice means falling into a hole about 5 fewer times
-/// and about 28 more steps per try". Numbers have two significant digits; what speaks for the choice comes first. In
-/// 100 tries if 10 would not tell of everything, in 1000 if rounding would leave out what decides. In discounted
-/// domains it says that later steps count less.
+/// What a choice changes in expectation, by the weightiest thing for it and against it: "in 10 tries it would rather
+/// take 280 steps than fall into a hole 5 times". Numbers have two significant digits. kAllInAll where that would not
+/// speak for the choice, and in discounted domains, where counts are none that anybody sees.
 [[nodiscard]] std::string on_average_in_words(const Domain& domain, const IntegerVector& difference);
 /// What a choice risks: "it risks falling into a hole", "it avoids the risk of falling into a hole"; nothing if no cost
-/// that on_average_in_words() names is an accident: something that some action brings in less than half of the cases,
-/// and most actions in less than half or never. Looks at all outcomes of the world.
+/// that it changes in one of 100 tries is an accident: something that some action brings in less than half of the
+/// cases, and most actions in less than half or never. Looks at all outcomes of the world.
 /// @param difference  as above.
 [[nodiscard]] std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference);
 /// The features that risk_in_words() names, ascending.
 [[nodiscard]] std::vector<std::size_t> risks_of(const Domain& domain, MdpIndex world, const IntegerVector& difference);
-/// "in 10 tries, 30 more steps cost more than falling into the water once". In discounted domains it says that later
-/// steps count less.
-/// @param risks  features that happen so many times, not so many times more.
-[[nodiscard]] std::string in_words(const Domain& domain, const StatementInTries& statement,
-                                   std::span<const std::size_t> risks);
 /// The normal and the words: "(-1,0,2): crossing rubble costs more than 2 steps"; the normal alone if there are none.
 [[nodiscard]] std::string described(const Domain& domain, const HalfSpace& half_space);
 /// How well inferred weights explain the robot (Domain::inferred()): "the weights explain 96 % of what the robot does,
