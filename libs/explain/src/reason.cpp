@@ -1,5 +1,6 @@
 #include "kith/explain/reason.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <vector>
@@ -70,7 +71,8 @@ void check(const Domain& domain, const IntegerVector& robot, const IntegerVector
 
 std::string choice_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative) {
   check(domain, robot, alternative);
-  return compared(domain, robot, alternative);
+  auto sentence = compared(domain, robot, alternative);
+  return std::count(sentence.begin(), sentence.end(), ' ') < kMostWords ? sentence : kAllInAll;
 }
 
 std::string prediction_in_words(const Domain& domain, const IntegerVector& predicted, const IntegerVector& robot) {
