@@ -29,7 +29,7 @@ void expect_claims_hold(const Atlas& atlas, const Curriculum& curriculum) {
       SCOPED_TRACE(shown.reason);
       EXPECT_TRUE(contains(shown.conveys, shown.main));
       EXPECT_EQ(constraint_of(shown.contrast.robot_counts, shown.contrast.alternative_counts), shown.main);
-      EXPECT_NE(shown.reason.find(in_words(domain, shown.main)), std::string::npos);
+      EXPECT_NE(shown.reason.find(told(domain, shown.main)), std::string::npos);
       EXPECT_EQ(shown.contrast.robot, atlas.trajectory(shown.demo));
       EXPECT_GE(sign_of_dot(shown.main.normal(), domain.weights().integer), 0);
       // Really conveyed: somebody would expect another path from some state of the robot's, and lose by exactly this.
