@@ -66,6 +66,7 @@ template <typename Event>
     const auto& limits = *member.asked;
     const auto found = body.find(std::string{member.name});
     if (found == body.end() && (member.may_miss || limits.may_miss || kIsOptional<T>)) return;
+    if (found != body.end() && found->is_null() && limits.may_miss && limits.fits == nullptr) return;
     if (found != body.end() && read(*found, value) && is_within(value, limits)) return;
     refusal = {std::string{limits.reason}, std::string{limits.text.empty() ? incomplete : limits.text}};
   });
