@@ -32,7 +32,7 @@ struct SessionOptions {
   std::string room;      ///< Id or code; empty: all rooms.
   std::size_t seat = 0;  ///< With redact: of the person; 0: everybody.
   bool dry_run = false;  ///< Change nothing.
-  std::string out;       ///< Folder for tables or for the imported session.
+  std::string out;       ///< Folder for tables or for the recovered session.
   bool names = false;    ///< Export what identifies people, too.
   bool text = false;     ///< Export what people wrote in their own words, too.
   bool yes = false;      ///< Replace an existing export; erase for good.
@@ -202,6 +202,15 @@ int erase_persons(const SessionOptions& options, Console& console) {
   return 0;
 }
 
+int salvage(const SessionOptions& options, Console& console) {
+  if (options.out.empty()) refuse("kith session salvage needs -o DIR, the folder for the recovered session");
+  const auto report = salvage_session(options.folder, options.out);
+  console.print(fmt::format("recovered {} and {} in {}\n", counted(report.rooms, "room"),
+                            counted(report.events, "event"), options.out));
+  for (const auto& lost : report.lost) console.warning("missing: " + lost);
+  return report.lost.empty() ? 0 : 6;
+}
+
 int import_log(const SessionOptions& options, Console& console) {
   if (options.out.empty()) refuse("kith session import needs -o DIR, the folder for the session");
   const auto imported =
@@ -213,13 +222,14 @@ int import_log(const SessionOptions& options, Console& console) {
 }
 
 void declare(OptionList& list, SessionOptions& options) {
-  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "import"}, "What to do")
+  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "salvage", "import"},
+            "What to do")
       .required();
   list.text("folder", options.folder, "DIR", "Folder that kith serve was given; with import: a log of a lesson file")
       .required();
   list.text("--room", options.room, "ID", "Only this room, by id or code");
   list.integer("--seat", options.seat, {1}, "With redact and --room: withdraw the person in this seat");
-  list.text("-o,--out", options.out, "DIR", "Folder for tables or the imported session");
+  list.text("-o,--out", options.out, "DIR", "Folder for tables, the recovered session or the imported one");
   list.flag("--names", options.names, "Export names, query parameters and completion codes, too");
   list.flag("--text", options.text, "Export what people wrote in their own words, too");
   list.flag("--dry-run", options.dry_run, "With redact --seat: only say what would be erased");
@@ -232,14 +242,15 @@ int run(const SessionOptions& options, Console& console) {
   if (options.action == "export") return write_tables(options, console);
   if (options.action == "replay") return replay_rooms(options, console);
   if (options.action == "redact") return erase_persons(options, console);
-  return import_log(options, console);
+  if (options.action == "import") return import_log(options, console);
+  return salvage(options, console);
 }
 
 }  // namespace
 
 void add_session(Commands& commands) {
   commands.add<SessionOptions>(
-      "session", "List, export, replay, redact or import live sessions",
+      "session", "List, export, replay, redact, recover or import live sessions",
       {"kith session list results/live", "kith session export results/live -o tables",
        "kith session replay results/live --room r3", "kith session redact results/live --room r3 --seat 2 --dry-run",
        "kith session import answers.json -o results/lesson"},

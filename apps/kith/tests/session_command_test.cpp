@@ -114,7 +114,7 @@ TEST_F(SessionCommand, ErasesOnlyWhenTold) {
   EXPECT_THAT(busy.err, HasSubstr("E1610"));
 }
 
-TEST_F(SessionCommand, NamesADamagedSession) {
+TEST_F(SessionCommand, RecoversADamagedSession) {
   const auto path = std::filesystem::path{folder()} / kEventFile;
   {
     Database database{path, Database::Mode::kWrite};
@@ -128,10 +128,19 @@ TEST_F(SessionCommand, NamesADamagedSession) {
   const auto list = run_kith({"session", "list", folder()});
   EXPECT_EQ(list.code, 7);
   EXPECT_THAT(list.err, HasSubstr("E1612"));
+  EXPECT_EQ(run_kith({"session", "salvage", folder()}).code, 2);
+  const auto ran = run_kith({"session", "salvage", folder(), "-o", scratch_ / "saved"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("2 events"));
+  EXPECT_EQ(run_kith({"session", "replay", scratch_ / "saved"}).code, 0);
+  std::ofstream{path} << "this is no database any more";
+  const auto nothing = run_kith({"session", "salvage", folder(), "-o", scratch_ / "other"});
+  EXPECT_EQ(nothing.code, 7);
+  EXPECT_THAT(nothing.err, AllOf(HasSubstr("E1619"), HasSubstr("sqlite3 session.sqlite .recover")));
 }
 
 TEST_F(SessionCommand, RefusesFoldersThatHoldNoSession) {
-  for (const std::string action : {"list", "show", "export", "replay", "redact"}) {
+  for (const std::string action : {"list", "show", "export", "replay", "redact", "salvage"}) {
     const auto ran = run_kith({"session", action, scratch_ / "none", "--room", "r1", "-o", scratch_ / "x", "--yes"});
     EXPECT_EQ(ran.code, 3) << action << ran.err;
     EXPECT_THAT(ran.err, HasSubstr("E1616")) << action;

@@ -71,6 +71,7 @@ class Writing : public ::testing::Test {
     return {
         {"study", {"study", "quick", "-o"}, {"--set", "replicates=1", "-q", "--progress", "none"}, true},
         {"session export", {"session", "export", session(), "-o"}, {}, true, yes},
+        {"session salvage", {"session", "salvage", session(), "-o"}, {}, true},
         {"analyze --csv", {"analyze", run(), "--brief", "--csv"}, {}, true},
         {"inspect --svg", {"inspect", "two-goals", "--svg"}, {}, true},
         {"init", {"init"}, {}, true},

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_damaged(const fs::path& path, const std::string& what) {
   refuse_run(ErrorKind::kMismatch, "E1612", path, "the session is damaged: " + what,
-             "use a backup; docs/live-sessions.md#damage tells how to keep what is intact");
+             "recover the intact events with 'kith session salvage'");
 }
 
 [[noreturn]] void refuse_other_study(const fs::path& path) {
@@ -117,17 +117,22 @@ EventFile::~EventFile() = default;
 EventFile EventFile::open(const fs::path& folder, const StoreIdentity& identity, std::int64_t now_us) {
   const auto path = folder / kEventFile;
   std::error_code none;
-  if (!fs::exists(path, none)) return make(path, identity, now_us);
+  const auto beside = read_identity_file(folder);
+  if (beside && beside->identity.study != identity.study) refuse_other_study(path);
+  if (!fs::exists(path, none)) return make(folder, identity, beside ? beside->id : new_store_id(), now_us);
   return reading(path, [&]() -> EventFile {
     if (log_is_damaged(path)) refuse_damaged(path, "its write-ahead log has a wrong checksum");
     Database database{path, Database::Mode::kWrite};
     prepare_connection(database);
-    if (is_empty(database)) return make(path, identity, now_us);
+    if (is_empty(database)) {
+      return make(folder, identity, beside ? beside->id : new_store_id(), now_us);
+    }
     if (!is_sound(database, SqliteCheck::kIndexes)) refuse_damaged(path, "SQLite's check of the file fails");
     require_version(database);
     const auto facts = from_meta(read_meta(database));
     if (!facts) refuse_damaged(path, "its description has a wrong checksum");
     if (facts->identity.study != identity.study) refuse_other_study(path);
+    if (!beside) write_identity_file(folder, *facts);
     return EventFile{std::make_unique<State>(path, std::move(database), *facts)};
   });
 }
@@ -152,8 +157,11 @@ EventFile EventFile::read(const fs::path& folder) {
   });
 }
 
-EventFile EventFile::make(const fs::path& path, const StoreIdentity& identity, std::int64_t now_us) {
-  const StoreFacts facts{.identity = identity, .id = new_store_id(), .created_us = now_us};
+EventFile EventFile::make(const fs::path& folder, const StoreIdentity& identity, const std::string& id,
+                          std::int64_t now_us) {
+  const auto path = folder / kEventFile;
+  const StoreFacts facts{.identity = identity, .id = id, .created_us = now_us};
+  write_identity_file(folder, facts);
   Database database{path, Database::Mode::kMake};
   prepare_connection(database);
   make_tables(database, facts);

@@ -1,15 +1,20 @@
 #include "store_identity.hpp"
 
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
+#include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/files/bytes.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/store/random_token.hpp"
 
 namespace kith {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kIdBytes = 16;
 constexpr std::string_view kInput = "input/";
@@ -60,6 +65,24 @@ std::optional<StoreFacts> from_meta(const std::map<std::string, std::string>& me
     if (key.compare(0, kInput.size(), kInput) == 0) facts.identity.inputs.emplace(key.substr(kInput.size()), value);
   }
   return facts;
+}
+
+void write_identity_file(const fs::path& folder, const StoreFacts& facts) {
+  nlohmann::ordered_json document;
+  for (const auto& [key, value] : to_meta(facts)) document[key] = value;
+  write_file_atomically(folder / kIdentityFile, document.dump(2) + "\n", FolderSync::kNow, OldLink::kReplace);
+}
+
+std::optional<StoreFacts> read_identity_file(const fs::path& folder) {
+  std::error_code none;
+  if (!fs::is_regular_file(folder / kIdentityFile, none)) return std::nullopt;
+  const auto document = nlohmann::json::parse(read_file(folder / kIdentityFile), nullptr, false);
+  if (!document.is_object()) return std::nullopt;
+  std::map<std::string, std::string> meta;
+  for (const auto& [key, value] : document.items()) {
+    if (value.is_string()) meta.emplace(key, value.get<std::string>());
+  }
+  return from_meta(meta);
 }
 
 }  // namespace kith

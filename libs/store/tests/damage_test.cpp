@@ -1,9 +1,11 @@
-// Bits that flip in the files of a session are noticed.
+// Bits that flip in the files of a session: noticed, and what is intact is recovered.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 #include "kith/files/sqlite.hpp"
+#include "kith/store/session_review.hpp"
 #include "store_support.hpp"
 
 namespace kith {
@@ -41,7 +43,8 @@ void make_session(const fs::path& folder) {
       checkpoint.empty_log();
     }
   }
-  for (const auto& name : {"session.sqlite", "session.sqlite-wal"}) fs::copy_file(scratch.path() / name, folder / name);
+  for (const auto& name : {"session.sqlite", "session.sqlite-wal", "session.json"})
+    fs::copy_file(scratch.path() / name, folder / name);
 }
 
 std::vector<StoredEvent> all_events() {
@@ -66,6 +69,28 @@ std::optional<std::vector<StoredEvent>> read_or_refuse(const fs::path& folder, c
   }
 }
 
+// What a salvage recovers is as it was, of each room the beginning; or SQLite reads nothing any more, and that is said.
+void check_salvage(const fs::path& folder, const fs::path& target, const std::string& story) {
+  SalvageReport report;
+  try {
+    report = salvage_session(folder, target);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostics().front().id, "E1619") << story << error.what();
+    EXPECT_NE(error.diagnostics().front().hint.find(".recover"), std::string::npos) << story;
+    return;
+  }
+  auto file = EventFile::read(target);
+  ASSERT_NO_THROW(file.verify()) << story;
+  std::map<std::int64_t, std::uint64_t> recovered;
+  for (const auto& event : events_in(file)) {
+    EXPECT_EQ(event, event_of(event.room, event.seq)) << story;
+    ++recovered[event.room];
+  }
+  std::size_t incomplete = 0;
+  for (std::int64_t room = 1; room <= kDamagedRooms; ++room) incomplete += recovered[room] < kEventsOfARoom ? 1u : 0u;
+  EXPECT_LE(report.lost.size(), incomplete) << story;  // of a lost end nothing after it can tell
+}
+
 void flip_bits(std::size_t cases, unsigned seed) {
   const ScratchFolder scratch;
   make_session(scratch.path() / "whole");
@@ -86,6 +111,7 @@ void flip_bits(std::size_t cases, unsigned seed) {
       EXPECT_EQ(*read, events) << story << ": a wrong value was not noticed";
     } else {
       ++noticed;
+      check_salvage(folder, folder / "salvaged", story);
     }
     fs::remove_all(folder);
     if (::testing::Test::HasFatalFailure()) return;
@@ -95,10 +121,10 @@ void flip_bits(std::size_t cases, unsigned seed) {
 
 // In parts, so that none takes long on a busy machine.
 class FlippedBits : public ::testing::TestWithParam<unsigned> {};
-TEST_P(FlippedBits, AreNoticed) { flip_bits(50, GetParam()); }
+TEST_P(FlippedBits, AreNoticedAndIntactEventsAreRecovered) { flip_bits(50, GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Seeds, FlippedBits, ::testing::Values(1u, 2u, 3u, 4u));
 
-TEST(SlowDamagedSession, IsNoticed) { flip_bits(2000, 8); }
+TEST(SlowDamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(2000, 8); }
 
 TEST(DamagedSession, IsNoticedIfAFileIsCutShort) {
   const ScratchFolder scratch;
@@ -112,7 +138,11 @@ TEST(DamagedSession, IsNoticedIfAFileIsCutShort) {
     fs::resize_file(folder / kEventFile, random() % size);
     const auto story = "cut to " + std::to_string(fs::file_size(folder / kEventFile));
     const auto read = read_or_refuse(folder, story);
-    EXPECT_EQ(read.value_or(events), events) << story;
+    if (read) {
+      EXPECT_EQ(*read, events) << story;
+      continue;
+    }
+    check_salvage(folder, folder / "salvaged", story);
   }
 }
 
@@ -137,7 +167,57 @@ TEST(DamagedSession, IsNoticedIfTheSaltOfTheLastFrameIsWrong) {
     fs::copy(scratch.path() / "whole", folder);
     flip_bit(folder / "session.sqlite-wal", size - kFrame + byte, 6);
     EXPECT_FALSE(read_or_refuse(folder, "salt").has_value()) << byte;
+    check_salvage(folder, folder / "salvaged", "salt");
   }
+}
+
+TEST(DamagedSession, IsRecoveredWithoutTheFileBesideIt) {
+  const ScratchFolder scratch;
+  make_session(scratch.path() / "session");
+  fs::remove(scratch.path() / "session" / kIdentityFile);
+  const auto report = salvage_session(scratch.path() / "session", scratch.path() / "salvaged");
+  EXPECT_EQ(report.events, kDamagedRooms * kEventsOfARoom);
+  EXPECT_EQ(report.rooms, static_cast<std::size_t>(kDamagedRooms));
+  EXPECT_TRUE(report.lost.empty());
+}
+
+TEST(DamagedSession, IsNotRecoveredIntoAFolderThatHoldsSomething) {
+  const ScratchFolder scratch;
+  make_session(scratch.path() / "session");
+  EXPECT_EQ(testing::id_of_error([&] { (void)salvage_session(scratch.path() / "session", scratch.path()); }), "E1620");
+  EXPECT_EQ(testing::id_of_error([&] { (void)salvage_session(scratch.path() / "none", scratch.path() / "x"); }),
+            "E1616");
+}
+
+// A page that holds no rows of the session.
+TEST(DamagedSession, IsRecoveredWholeIfOnlyAnIndexIsDamaged) {
+  const ScratchFolder scratch;
+  const auto folder = scratch.path() / "session";
+  make_session(folder);
+  {
+    Database checkpoint{folder / kEventFile, Database::Mode::kWrite};
+    checkpoint.empty_log();
+    auto page = checkpoint.prepare("SELECT rootpage FROM sqlite_schema WHERE name = 'message'");
+    ASSERT_TRUE(page.step());
+    std::fstream file{folder / kEventFile, std::ios::in | std::ios::out | std::ios::binary};
+    file.seekp((page.integer(0) - 1) * kSqlitePageSize);
+    file << std::string(kSqlitePageSize, '\xA5');
+  }
+  EXPECT_FALSE(read_or_refuse(folder, "index").has_value());
+  const auto report = salvage_session(folder, scratch.path() / "salvaged");
+  EXPECT_EQ(report.events, kDamagedRooms * kEventsOfARoom);
+  EXPECT_TRUE(report.lost.empty());
+}
+
+TEST(DamagedSession, CannotBeRecoveredWithoutItsIdentity) {
+  const ScratchFolder scratch;
+  make_session(scratch.path() / "session");
+  fs::remove(scratch.path() / "session" / kIdentityFile);
+  std::ofstream{scratch.path() / "session" / kEventFile, std::ios::trunc} << std::string(8192, 'x');
+  fs::remove(scratch.path() / "session" / "session.sqlite-wal");
+  EXPECT_EQ(
+      testing::id_of_error([&] { (void)salvage_session(scratch.path() / "session", scratch.path() / "salvaged"); }),
+      "E1619");
 }
 
 }  // namespace

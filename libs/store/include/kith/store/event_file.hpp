@@ -62,6 +62,8 @@ struct StoreIdentity {
 
 /// The name of the file in the folder of a session.
 inline constexpr const char* kEventFile = "session.sqlite";
+/// A copy of the identity beside it, from which a damaged file can still be read.
+inline constexpr const char* kIdentityFile = "session.json";
 
 /// The file that live sessions are kept in: an SQLite database in WAL mode, written with synchronous=FULL. Every row
 /// has a checksum that is bound to the file, the room and the place in the room, so a damaged, moved or foreign row is
@@ -79,6 +81,9 @@ class EventFile {
   /// Opens it to read: all that is read is of one instant, even while another process writes.
   /// @throws kith::Error kInvalidInput E1616 (the folder holds no session); as open().
   [[nodiscard]] static EventFile read(const std::filesystem::path& folder);
+  /// Makes a file with that identity, id included, in an empty folder.
+  [[nodiscard]] static EventFile make(const std::filesystem::path& folder, const StoreIdentity& identity,
+                                      const std::string& id, std::int64_t now_us);
 
   EventFile(const EventFile&) = delete;
   EventFile& operator=(const EventFile&) = delete;
@@ -114,8 +119,6 @@ class EventFile {
 
  private:
   struct State;
-  [[nodiscard]] static EventFile make(const std::filesystem::path& path, const StoreIdentity& identity,
-                                      std::int64_t now_us);
   explicit EventFile(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

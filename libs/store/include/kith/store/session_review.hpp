@@ -86,4 +86,18 @@ std::map<std::string, std::size_t> withdraw(const std::filesystem::path& folder,
 /// Everybody who was withdrawn.
 [[nodiscard]] std::set<StoredSeat> withdrawn_seats(EventFile& file);
 
+/// What a salvage found.
+struct SalvageReport {
+  std::size_t rooms = 0;
+  std::size_t events = 0;  ///< In the new file.
+  std::size_t links = 0;
+  std::vector<std::string> lost{};  ///< In words: which events are missing, and what had to be left out after them.
+};
+
+/// Copies every intact row that SQLite still reads of a damaged session to a new one in another folder. Of each room
+/// the events up to the first missing one are kept, since what follows cannot be understood without it.
+/// @throws kith::Error kInvalidInput E1616 (the folder holds no session), kMismatch E1619 (nothing can be recovered:
+/// the identity of the session is lost, or SQLite reads no row), kUsage E1620 (the new folder is not empty); kIo.
+[[nodiscard]] SalvageReport salvage_session(const std::filesystem::path& folder, const std::filesystem::path& target);
+
 }  // namespace kith
