@@ -72,7 +72,6 @@ class Directory {
   void closed(LiveService::ConnectionId id);
   void say_goodbye();
 
-  // What is due by the clock.
   void tick();
   // Adds what facilitators see of people without asking rooms.
   void fill(WatchedRooms& rooms) const;

@@ -14,6 +14,16 @@ std::string_view text_of(const boost::beast::flat_buffer& buffer) {
   return {static_cast<const char*>(data.data()), data.size()};
 }
 
+// "GET / HTTP/2.0": well-formed, but a version that we do not speak.
+bool names_other_version(std::string_view head) {
+  const auto line = head.substr(0, head.find('\r'));
+  const auto at = line.rfind(" HTTP/");
+  if (at == std::string_view::npos) return false;
+  const auto version = line.substr(at + 6);
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return version.size() == 3 && digit(version[0]) && version[1] == '.' && digit(version[2]);
+}
+
 }  // namespace
 
 RequestReader::RequestReader(const ServerLimits& limits)
@@ -97,7 +107,9 @@ RequestReader::Failure RequestReader::failure_of(const boost::beast::error_code&
     return {431, "the header is too long"};
   }
   if (error == http::error::body_limit) return {413, "the body is too long"};
-  if (error == http::error::bad_version) return {505, "this server speaks HTTP/1.1"};
+  if (error == http::error::bad_version && names_other_version(text_of(buffer_))) {
+    return {505, "this server speaks HTTP/1.1"};
+  }
   return {400, "this is no HTTP request: " + error.message()};
 }
 
