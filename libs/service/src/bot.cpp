@@ -179,7 +179,8 @@ void Bot::act() {
 
 // A wrong answer stops one step too early.
 AnswerPath Bot::path_for(const BotAct& act) {
-  auto path = world_.options.right_path(act.world, act.start).value_or(AnswerPath{});
+  const auto& right = world_.options.right_path;
+  auto path = (right ? right(act.world, act.start) : std::nullopt).value_or(AnswerPath{});
   if (uniform() < world_.options.right || path.actions.empty()) return path;
   path.actions.pop_back();
   path.for_ever = false;
