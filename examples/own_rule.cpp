@@ -40,7 +40,7 @@ std::vector<std::vector<kith::Answer>> answers_to(const kith::Session& session) 
   std::vector<std::vector<kith::Answer>> answers(session.num_members());
   for (const auto& test : session.lesson().tests) {
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      answers[i].push_back(i == 2 ? kith::Answer{} : session.atlas().feature_counts(test.demo));
+      answers[i].push_back(i == 2 ? kith::Answer{} : session.atlas().feature_counts(test.start));
     }
   }
   return answers;

@@ -54,7 +54,7 @@ std::vector<std::vector<kith::Answer>> answers_to(const kith::Session& session) 
   std::vector<std::vector<kith::Answer>> answers(session.num_members());
   for (const auto& test : lesson.tests) {
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      answers[i].push_back(i == silent ? kith::Answer{} : session.atlas().feature_counts(test.demo));
+      answers[i].push_back(i == silent ? kith::Answer{} : session.atlas().feature_counts(test.start));
     }
   }
   return answers;

@@ -114,14 +114,15 @@ py::dict path_to_python(const Domain& domain, MdpIndex m, const Trajectory& path
 
 // What somebody does from a start, and how it ends; None if they have no optimum there.
 py::object path(LoadedDomain& self, const py::object& start, const py::object& weights) {
-  const auto demo = weights.is_none() ? self.state_of(start) : self.candidate_of(start);
+  const auto start_index = weights.is_none() ? self.state_of(start) : self.candidate_of(start);
   const auto atlas = self.atlas();
-  const auto m = atlas->id(demo).mdp;
-  if (weights.is_none()) return path_to_python(self.domain(), m, atlas->trajectory(demo), atlas->feature_counts(demo));
+  const auto m = atlas->id(start_index).mdp;
+  if (weights.is_none())
+    return path_to_python(self.domain(), m, atlas->trajectory(start_index), atlas->feature_counts(start_index));
   const auto direction = direction_of(weights, self.domain().num_features(), "weights");
   const auto cache = self.borrow();
-  const auto way = cache->behaviours().trajectory(demo, direction);
-  const auto counts = cache->behaviours().answer(demo, cache->behaviours().locate(direction));
+  const auto way = cache->behaviours().trajectory(start_index, direction);
+  const auto counts = cache->behaviours().answer(start_index, cache->behaviours().locate(direction));
   if (!way || !counts) return py::none();
   return path_to_python(self.domain(), m, *way, *counts);
 }
@@ -168,14 +169,14 @@ std::string described(LoadedDomain& self, bool demonstrations) {
 
 // The board of a state with the robot's path, as an SVG file; empty without a map or a picture.
 std::string board(LoadedDomain& self, const py::object& start, bool with_path) {
-  const auto demo = self.state_of(start);
+  const auto start_index = self.state_of(start);
   const auto atlas = self.atlas();
   const auto map = self.domain().drawing();
   if (!map) return "";
-  const auto id = atlas->id(demo);
+  const auto id = atlas->id(start_index);
   const BoardSvg drawer{*map};
   Svg svg = drawer.board(id.mdp, map->state(id.mdp, id.start));
-  if (with_path) svg.add(0, 0, drawer.path(id.mdp, atlas->trajectory(demo), "#1f5fbf"));
+  if (with_path) svg.add(0, 0, drawer.path(id.mdp, atlas->trajectory(start_index), "#1f5fbf"));
   return svg.file(drawer.width(), drawer.height(), self.domain().state_name(id.mdp, id.start));
 }
 
@@ -256,13 +257,13 @@ std::optional<StateIndex> state_with_number(const Domain& domain, MdpIndex m, st
 }
 
 StartIndex LoadedDomain::candidate_of(const py::handle& start) {
-  const auto demo = state_of(start);
-  if (!atlas()->is_candidate(demo)) throw py::value_error{"this domain lets nothing start in that state"};
-  return demo;
+  const auto start_index = state_of(start);
+  if (!atlas()->is_candidate(start_index)) throw py::value_error{"this domain lets nothing start in that state"};
+  return start_index;
 }
 
-py::tuple LoadedDomain::start_of(const Atlas& atlas, StartIndex demo) {
-  const auto id = atlas.id(demo);
+py::tuple LoadedDomain::start_of(const Atlas& atlas, StartIndex start) {
+  const auto id = atlas.id(start);
   return py::make_tuple(id.mdp.value(), state_number(atlas.domain(), id.mdp, id.start));
 }
 

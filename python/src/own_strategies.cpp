@@ -117,9 +117,9 @@ class View {
     const auto& atlas = get().atlas;
     const auto& component = atlas.knowledge_components()[get().component];
     py::list starts;
-    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-      if (!atlas.is_candidate(demo) || !component.uses_mdp[atlas.id(demo).mdp.value()]) continue;
-      if (!atlas.one_step(demo).empty()) starts.append(LoadedDomain::start_of(atlas, demo));
+    for (StartIndex start_index{0}; start_index.value() < atlas.num_states(); ++start_index) {
+      if (!atlas.is_candidate(start_index) || !component.uses_mdp[atlas.id(start_index).mdp.value()]) continue;
+      if (!atlas.one_step(start_index).empty()) starts.append(LoadedDomain::start_of(atlas, start_index));
     }
     return starts;
   }
@@ -284,8 +284,8 @@ void bind_own_strategies(py::module_& module) {
           "visited",
           [](const View& self) {
             py::list starts;
-            for (const auto demo : self.get().visited.in_order())
-              starts.append(LoadedDomain::start_of(self.get().atlas, demo));
+            for (const auto start : self.get().visited.in_order())
+              starts.append(LoadedDomain::start_of(self.get().atlas, start));
             return starts;
           },
           "Starts that were shown or asked before: (world, state).")

@@ -14,9 +14,9 @@ std::string source_name(const SourceBelief& source) {
   return source.is_member() ? "member " + std::to_string(source.member + 1) : source.rule;
 }
 
-py::list actions_of(const Atlas& atlas, StartIndex demo) {
+py::list actions_of(const Atlas& atlas, StartIndex start) {
   py::list actions;
-  for (const auto action : atlas.trajectory(demo).actions)
+  for (const auto action : atlas.trajectory(start).actions)
     actions.append(atlas.domain().action_names()[action.value()]);
   return actions;
 }
@@ -42,12 +42,12 @@ py::object to_python(const Atlas& atlas, const Lesson& lesson) {
   py::list demonstrations, tests;
   for (const auto& shown : lesson.demonstrations) {
     demonstrations.append(record("Demonstration")(
-        LoadedDomain::start_of(atlas, shown.demo), actions_of(atlas, shown.demo),
-        counts_to_tuple(domain, atlas.feature_counts(shown.demo)), to_list(shown.half_spaces), shown.gain));
+        LoadedDomain::start_of(atlas, shown.start), actions_of(atlas, shown.start),
+        counts_to_tuple(domain, atlas.feature_counts(shown.start)), to_list(shown.half_spaces), shown.gain));
   }
   for (const auto& test : lesson.tests) {
-    tests.append(record("Test")(LoadedDomain::start_of(atlas, test.demo), actions_of(atlas, test.demo),
-                                counts_to_tuple(domain, atlas.feature_counts(test.demo)), to_list(test.covered),
+    tests.append(record("Test")(LoadedDomain::start_of(atlas, test.start), actions_of(atlas, test.start),
+                                counts_to_tuple(domain, atlas.feature_counts(test.start)), to_list(test.covered),
                                 test.exact));
   }
   return record("Lesson")(lesson.period, lesson.component, atlas.knowledge_components()[lesson.component].name,
@@ -93,7 +93,7 @@ Unit picked_unit(TeachingCache& cache, std::span<const HalfSpace> taught_region,
     const auto effect = cache.regions().effect(taught, conveyed);
     taught = cache.regions().minimal(taught | conveyed);
     Demonstration shown;
-    shown.demo = demos[i];
+    shown.start = demos[i];
     shown.half_spaces = cache.constraints().half_spaces(conveyed);
     shown.gain = effect.gain;
     shown.num_new = effect.num_new;

@@ -218,7 +218,7 @@ py::list answers(People& self, OwnSession& session, std::size_t member) {
       if (begins_component(taught)) learners[member]->begin_component();
       watch_lesson(*learners[member], lesson, *cache);
       std::vector<StartIndex> tests;
-      for (const auto& test : lesson.tests) tests.push_back(test.demo);
+      for (const auto& test : lesson.tests) tests.push_back(test.start);
       return learners[member]->answer(cache->behaviours(), tests, lesson.period);
     });
   });

@@ -71,7 +71,7 @@ class WholeRobot {
         require(!component.demonstrations.empty(), "a lesson shows something");
         for (const auto& shown : component.demonstrations) {
           require(!shown.conveys.empty() && !shown.reason.empty(), "and says why");
-          require(!atlas_.trajectory(shown.demo).actions.empty(), "what it shows can be seen");
+          require(!atlas_.trajectory(shown.start).actions.empty(), "what it shows can be seen");
         }
         for (const auto& test : component.tests) {
           require(test.share_right >= 0.0 && test.share_right <= 1.0, "a share is one");
@@ -83,9 +83,9 @@ class WholeRobot {
   }
 
   // The path after the last possible action: as good as the robot's, or worse.
-  [[nodiscard]] Answer another_answer(StartIndex demo) const {
-    const auto id = atlas_.id(demo);
-    return atlas_.deviation_counts(demo, atlas_.domain().mdp(id.mdp).choices(id.start).size() - 1);
+  [[nodiscard]] Answer another_answer(StartIndex start) const {
+    const auto id = atlas_.id(start);
+    return atlas_.deviation_counts(start, atlas_.domain().mdp(id.mdp).choices(id.start).size() - 1);
   }
 
   // Two people, one of whom is always right.
@@ -95,8 +95,8 @@ class WholeRobot {
     while (session.propose(cache)) {
       std::vector<std::vector<Answer>> answers(2);
       for (const auto& test : session.lesson().tests) {
-        answers[0].emplace_back(atlas_.feature_counts(test.demo));
-        answers[1].push_back(another_answer(test.demo));
+        answers[0].emplace_back(atlas_.feature_counts(test.start));
+        answers[1].push_back(another_answer(test.start));
       }
       const auto feedback = session.submit(answers);
       for (const auto& verdict : feedback.verdicts[0]) require(verdict.correct, "the robot's own path is right");

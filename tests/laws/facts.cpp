@@ -41,8 +41,8 @@ std::vector<IntegerVector> carried_over(const std::vector<HalfSpace>& all, const
 Facts facts_of(const Atlas& atlas, const Counted& counted) {
   Facts facts;
   facts.num_worlds = atlas.domain().num_mdps();
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (atlas.is_candidate(demo)) facts.counts.push_back(carried_over(atlas.feature_counts(demo), counted));
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (atlas.is_candidate(start)) facts.counts.push_back(carried_over(atlas.feature_counts(start), counted));
   }
   std::sort(facts.counts.begin(), facts.counts.end());
   facts.region = carried_over(atlas.policy_bec_half_spaces(), counted);

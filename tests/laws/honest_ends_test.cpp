@@ -98,8 +98,8 @@ void expect_honest(const Atlas& atlas, const StudySpec& spec, const TeamRecord& 
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> shown;
   std::set<std::size_t> components;
   for (const auto& demonstration_record : team.demonstration_records) {
-    const auto demo = atlas.index({MdpIndex{demonstration_record.mdp}, StateIndex{demonstration_record.start}});
-    EXPECT_FALSE(atlas.trajectory(demo).actions.empty()) << "a demonstration of nothing";
+    const auto start = atlas.index({MdpIndex{demonstration_record.mdp}, StateIndex{demonstration_record.start}});
+    EXPECT_FALSE(atlas.trajectory(start).actions.empty()) << "a demonstration of nothing";
     components.insert(demonstration_record.component);
     ++shown[{demonstration_record.member, demonstration_record.period}];
   }

@@ -167,12 +167,12 @@ void expect_same_lessons(const Atlas& original, const Atlas& other, const Rewrit
     EXPECT_EQ(a.constraints, b.constraints);
     ASSERT_EQ(a.demonstrations.size(), b.demonstrations.size());
     for (std::size_t i = 0; i < a.demonstrations.size(); ++i) {
-      EXPECT_EQ(a.demonstrations[i].demo, b.demonstrations[i].demo);
+      EXPECT_EQ(a.demonstrations[i].start, b.demonstrations[i].start);
       EXPECT_EQ(a.demonstrations[i].conveys, b.demonstrations[i].conveys);
     }
     ASSERT_EQ(a.tests.size(), b.tests.size());
     for (std::size_t i = 0; i < a.tests.size(); ++i) {
-      EXPECT_EQ(a.tests[i].demo, b.tests[i].demo);
+      EXPECT_EQ(a.tests[i].start, b.tests[i].start);
       EXPECT_EQ(a.tests[i].share_right, b.tests[i].share_right);
     }
   }
@@ -327,7 +327,7 @@ void expect_sane(const Atlas& atlas) {
     for (const auto& component : curriculum->components) {
       EXPECT_FALSE(component.demonstrations.empty());
       for (const auto& shown : component.demonstrations) {
-        EXPECT_FALSE(atlas.trajectory(shown.demo).actions.empty()) << "a demonstration of nothing";
+        EXPECT_FALSE(atlas.trajectory(shown.start).actions.empty()) << "a demonstration of nothing";
         EXPECT_FALSE(shown.reason.empty());
         for (const auto& conveyed : shown.conveys) EXPECT_TRUE(conveyed.contains(domain.weights().integer));
       }
@@ -376,8 +376,8 @@ TEST(MetamorphicSlow, DiscountsMakeNoNonsense) {
 // What the robot expects from its first state.
 double value_of(const Atlas& atlas) {
   const auto& domain = atlas.domain();
-  const auto demo = atlas.index({MdpIndex{0}, domain.initial_state(MdpIndex{0})});
-  return domain.weights().return_of(atlas.feature_counts(demo)) / static_cast<double>(domain.count_scale());
+  const auto start = atlas.index({MdpIndex{0}, domain.initial_state(MdpIndex{0})});
+  return domain.weights().return_of(atlas.feature_counts(start)) / static_cast<double>(domain.count_scale());
 }
 
 void expect_sane_with_slips(const RandomStream& random) {

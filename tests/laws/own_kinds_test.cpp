@@ -86,7 +86,7 @@ TEST(OwnKinds, AreOneFileOutsideTheLibraries) {
     run_period(session, cache, people);
     const auto& period = session.history().back();
     for (std::size_t t = 0; t < period.lesson.tests.size(); ++t) {
-      const auto paths = atlas.tables().coverage_set(period.lesson.tests[t].demo);
+      const auto paths = atlas.tables().coverage_set(period.lesson.tests[t].start);
       const auto& given = period.answers.front().at(t);
       ASSERT_TRUE(given);
       if (std::find(paths.begin(), paths.end(), *given) == paths.end()) ++outside;

@@ -60,7 +60,7 @@ std::size_t expect_said_is_shown(const Atlas& atlas) {
       EXPECT_TRUE(shown.clip(one.conveys));
       EXPECT_TRUE(shown.implies(one.main));
       EXPECT_EQ(conveyed_by(domain, one.contrast), one.main);
-      const auto& mdp = domain.mdp(atlas.id(one.demo).mdp);
+      const auto& mdp = domain.mdp(atlas.id(one.start).mdp);
       const auto scale = domain.count_scale();
       if (is_exact(mdp)) {
         EXPECT_EQ(counted_along(mdp, one.contrast.robot, scale) - counted_along(mdp, one.contrast.alternative, scale),
@@ -80,7 +80,7 @@ std::size_t expect_said_is_shown(const Atlas& atlas) {
     }
     for (const auto& test : component.tests) {
       auto seen = shown;
-      EXPECT_TRUE(seen.clip(atlas.constraints().half_spaces(atlas.one_step(test.demo))));
+      EXPECT_TRUE(seen.clip(atlas.constraints().half_spaces(atlas.one_step(test.start))));
       for (const auto& covered : test.covers) EXPECT_TRUE(seen.implies(covered)) << described(domain, covered);
       said += test.covers.size();
     }

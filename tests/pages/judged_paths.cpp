@@ -21,9 +21,9 @@ constexpr std::size_t kRandomPaths = 1200;  // of each domain
 using Actions = std::vector<std::size_t>;
 
 // Mostly what the robot does, now and then something else, until the end or until somebody has had enough.
-Actions random_path(const Atlas& atlas, StartIndex demo, RandomStream& random) {
+Actions random_path(const Atlas& atlas, StartIndex start_index, RandomStream& random) {
   constexpr std::size_t kLongest = 80;
-  const auto [world, start] = atlas.id(demo);
+  const auto [world, start] = atlas.id(start_index);
   const auto& mdp = atlas.domain().mdp(world);
   const auto others = uniform_index(4, random);  // in how many of ten steps
   Actions actions;
@@ -47,11 +47,11 @@ class Lines {
         worlds_(atlas.domain().num_mdps(), Json::array()),
         moves_(atlas.domain().num_mdps(), Json::array()) {}
 
-  void add(StartIndex demo, const Actions& actions, bool for_ever) {
-    const auto judged = judged_path(atlas_, demo, actions, for_ever);
+  void add(StartIndex start_index, const Actions& actions, bool for_ever) {
+    const auto judged = judged_path(atlas_, start_index, actions, for_ever);
     if (for_ever && !judged.is_legal) return;
-    const auto& robot = atlas_.feature_counts(demo);
-    Json one{{"start", atlas_.id(demo).start.value()},
+    const auto& robot = atlas_.feature_counts(start_index);
+    Json one{{"start", atlas_.id(start_index).start.value()},
              {"robot", std::vector<std::int64_t>(robot.begin(), robot.end())},
              {"actions", actions},
              {"repeats_from", nullptr},
@@ -60,20 +60,20 @@ class Lines {
              {"counts", nullptr}};
     if (for_ever) one["repeats_from"] = *judged.path.repeats_from;
     if (judged.counts) one["counts"] = std::vector<std::int64_t>(judged.counts->begin(), judged.counts->end());
-    worlds_[atlas_.id(demo).mdp.value()].push_back(std::move(one));
+    worlds_[atlas_.id(start_index).mdp.value()].push_back(std::move(one));
   }
 
   // The robot goes on as ever behind the move.
-  void add_moves(StartIndex demo) {
-    const auto [world, start] = atlas_.id(demo);
-    const auto& robot = atlas_.feature_counts(demo);
+  void add_moves(StartIndex start_index) {
+    const auto [world, start] = atlas_.id(start_index);
+    const auto& robot = atlas_.feature_counts(start_index);
     const auto choices = atlas_.domain().mdp(world).choices(start);
     for (std::size_t c = 0; c < choices.size(); ++c) {
       moves_[world.value()].push_back(
           {{"start", start.value()},
            {"robot", std::vector<std::int64_t>(robot.begin(), robot.end())},
            {"action", choices[c].action.value()},
-           {"right", judge_path(atlas_.domain(), robot, atlas_.deviation_counts(demo, c)).is_right}});
+           {"right", judge_path(atlas_.domain(), robot, atlas_.deviation_counts(start_index, c)).is_right}});
     }
   }
 
@@ -98,20 +98,20 @@ void print_paths(const std::string& name) {
   const Atlas atlas{load_domain(name)};
   Lines lines{atlas};
   RandomStream random{38};
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.domain().is_exact()) lines.add_moves(demo);
-    if (!atlas.is_candidate(demo)) continue;
-    const auto path = answerable_path(atlas, demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.domain().is_exact()) lines.add_moves(start);
+    if (!atlas.is_candidate(start)) continue;
+    const auto path = answerable_path(atlas, start);
     if (!path) continue;
     Actions actions;
     for (const auto action : path->actions) actions.push_back(action.value());
-    lines.add(demo, actions, path->repeats_from.has_value());
+    lines.add(start, actions, path->repeats_from.has_value());
   }
   for (std::size_t i = 0; i < kRandomPaths; ++i) {
-    const StartIndex demo{uniform_index(atlas.num_states(), random)};
-    const auto actions = random_path(atlas, demo, random);
-    lines.add(demo, actions, false);
-    if (atlas.domain().mdp(MdpIndex{0}).discount() < 1.0) lines.add(demo, actions, true);
+    const StartIndex start{uniform_index(atlas.num_states(), random)};
+    const auto actions = random_path(atlas, start, random);
+    lines.add(start, actions, false);
+    if (atlas.domain().mdp(MdpIndex{0}).discount() < 1.0) lines.add(start, actions, true);
   }
   lines.print();
 }

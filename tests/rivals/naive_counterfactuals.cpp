@@ -33,10 +33,10 @@ std::vector<std::optional<IntegerVector>> path_counts(const Mdp& mdp, std::span<
 }  // namespace
 
 NaiveCounterfactuals::NaiveCounterfactuals(const Atlas& atlas) : atlas_{atlas} {
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    const auto mdp = atlas.id(demo).mdp;
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    const auto mdp = atlas.id(start).mdp;
     auto& path = paths_.emplace_back();
-    for (const auto state : atlas.trajectory(demo).states) {
+    for (const auto state : atlas.trajectory(start).states) {
       if (!atlas.domain().mdp(mdp).is_terminal(state)) path.push_back(atlas.index({mdp, state}));
     }
   }
@@ -49,12 +49,12 @@ void NaiveCounterfactuals::add_conveyed(MdpIndex m, const Eigen::Vector3d& weigh
   if (!plan.converged) return;
   const auto counts = path_counts(mdp, plan.greedy_choice);
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
-    const auto demo = atlas_.index({m, StateIndex{s}});
-    for (const auto state : paths_[demo.value()]) {
+    const auto start = atlas_.index({m, StateIndex{s}});
+    for (const auto state : paths_[start.value()]) {
       const auto& expected = counts[atlas_.id(state).start.value()];
       if (!expected) continue;
       const auto loss = atlas_.feature_counts(state) - *expected;
-      if (!loss.is_zero()) by_demo[demo.value()].push_back(primitive(loss));
+      if (!loss.is_zero()) by_demo[start.value()].push_back(primitive(loss));
     }
   }
 }

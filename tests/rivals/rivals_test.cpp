@@ -79,10 +79,10 @@ TEST(NaiveCounterfactuals, ConveyWhatTheAtlasLooksUp) {
   for (std::uint64_t turn = 0; turn < 2; ++turn) {
     const auto theirs = naive.conveyed(interaction.people(turn));
     const auto rows = atlas().tables().conveyed_by_class(interaction.cells(turn));
-    for (StartIndex demo{0}; demo.value() < atlas().num_states(); ++demo) {
-      const auto row =
-          std::span{rows}.subspan(atlas().start_class(demo).value() * atlas().words_per_set(), atlas().words_per_set());
-      ASSERT_EQ(atlas().constraints().half_spaces(ConstraintSet{row}), theirs[demo.value()]) << demo.value();
+    for (StartIndex start{0}; start.value() < atlas().num_states(); ++start) {
+      const auto row = std::span{rows}.subspan(atlas().start_class(start).value() * atlas().words_per_set(),
+                                               atlas().words_per_set());
+      ASSERT_EQ(atlas().constraints().half_spaces(ConstraintSet{row}), theirs[start.value()]) << start.value();
     }
   }
 }

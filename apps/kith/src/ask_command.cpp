@@ -24,11 +24,11 @@ struct AskOptions {
 };
 
 // Nothing where nothing is left to chance.
-std::vector<PolicyRun> runs_from(const Atlas& atlas, StartIndex demo) {
+std::vector<PolicyRun> runs_from(const Atlas& atlas, StartIndex start) {
   constexpr std::size_t kRuns = 10;
   if (atlas.domain().is_exact()) return {};
-  auto random = RandomStream{1}.split("runs").split(demo.value());
-  return several_runs(atlas, demo, kRuns, random);
+  auto random = RandomStream{1}.split("runs").split(start.value());
+  return several_runs(atlas, start, kRuns, random);
 }
 
 Json path_and_chance(const Domain& domain, MdpIndex world, const Trajectory& path) {
@@ -42,13 +42,13 @@ Json reply_json(const Atlas& atlas, const Reply& reply) {
   const auto& domain = atlas.domain();
   Json examples = Json::array();
   for (const auto& example : reply.examples) {
-    const auto id = atlas.id(example.demo);
+    const auto id = atlas.id(example.start);
     auto json = board_json(domain, id);
     json.update(path_and_chance(domain, id.mdp, example.path));
     json["text"] = example.text;
     json["alternative"] = nullptr;
     if (example.alternative) json["alternative"] = path_and_chance(domain, id.mdp, *example.alternative);
-    json["runs"] = runs_json(domain, id.mdp, runs_from(atlas, example.demo));
+    json["runs"] = runs_json(domain, id.mdp, runs_from(atlas, example.start));
     json["decisive"] = example.decisive ? step_json(domain, id.mdp, example.path, *example.decisive) : Json{};
     examples.push_back(std::move(json));
   }
@@ -67,10 +67,10 @@ std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& co
   std::string text = console.dim(reply.question) + "\n" + wrapped(reply.text, kTextWidth) + "\n";
   for (const auto& example : reply.examples) {
     text += "\n" + wrapped(example.text, kTextWidth) + "\n" +
-            start_and_path(domain, atlas.id(example.demo), example.path, 2);
-    const auto world = atlas.id(example.demo).mdp;
+            start_and_path(domain, atlas.id(example.start), example.path, 2);
+    const auto world = atlas.id(example.start).mdp;
     const auto add = [&](const std::string& line) { text += "  " + wrapped(line, kTextWidth - 2, "  ") + "\n"; };
-    const auto runs = runs_from(atlas, example.demo);
+    const auto runs = runs_from(atlas, example.start);
     if (example.alternative || !runs.empty() || example.path.repeats_from)
       add("the robot: " + path_text(domain, world, example.path));
     if (!runs.empty()) add(runs_in_words(domain, world, runs));

@@ -225,7 +225,7 @@ class AuditText {
          5);
     for (const auto& answer : found.answers) {
       line(fmt::format("period {}, test {} ({}), predicted: {}", answer.period, answer.test,
-                       world_text(atlas_.domain(), atlas_.id(answer.demo).mdp), answer.text),
+                       world_text(atlas_.domain(), atlas_.id(answer.start).mdp), answer.text),
            7);
     }
     if (found.show) {
@@ -233,8 +233,8 @@ class AuditText {
     }
   }
 
-  [[nodiscard]] std::string place(StartIndex demo) const {
-    const auto id = atlas_.id(demo);
+  [[nodiscard]] std::string place(StartIndex start) const {
+    const auto id = atlas_.id(start);
     return fmt::format("{}, start {}", world_text(atlas_.domain(), id.mdp), id.start.value());
   }
 

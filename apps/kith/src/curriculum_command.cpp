@@ -52,13 +52,13 @@ class CurriculumText {
   }
 
   void demonstration(std::size_t j, const CurriculumDemonstration& shown) {
-    const auto world = atlas_.id(shown.demo).mdp;
+    const auto world = atlas_.id(shown.start).mdp;
     const auto& contrast = shown.contrast;
     out_ += fmt::format("\n   Demonstration {}: {}\n", j + 1, world_text(atlas_.domain(), world));
     line(shown.reason, 3);
-    out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
+    out_ += start_and_path(domain_, atlas_.id(shown.start), contrast.robot, 5);
     line("the robot: " + with_chance(world, contrast.robot), 5);
-    runs(shown.demo, shown.runs);
+    runs(shown.start, shown.runs);
     if (!first_difference(contrast.robot, contrast.alternative)) {
       line("someone missing this fact would predict the same most likely path, but with other chances", 5);
     } else {
@@ -67,24 +67,24 @@ class CurriculumText {
       line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, place(world, fork)), 5);
     }
     if (shown.flip) {
-      line(fmt::format("{}: {}", world_text(atlas_.domain(), atlas_.id(shown.flip->demo).mdp),
+      line(fmt::format("{}: {}", world_text(atlas_.domain(), atlas_.id(shown.flip->start).mdp),
                        flip_in_words(atlas_, contrast, *shown.flip)),
            5);
-      out_ += start_and_path(domain_, atlas_.id(shown.flip->demo), shown.flip->robot, 5);
+      out_ += start_and_path(domain_, atlas_.id(shown.flip->start), shown.flip->robot, 5);
     }
   }
 
   // What happened in several runs, and the paths that they took.
-  void runs(StartIndex demo, const std::vector<PolicyRun>& all) {
+  void runs(StartIndex start, const std::vector<PolicyRun>& all) {
     if (all.empty()) return;
     constexpr std::size_t kFew = 3;
-    line(runs_in_words(domain_, atlas_.id(demo).mdp, all), 5);
+    line(runs_in_words(domain_, atlas_.id(start).mdp, all), 5);
     const auto ways = different_ways(all);
     for (std::size_t i = 0; i < std::min(kFew, ways.size()); ++i) {
       const auto& way = ways[i];
       const auto& run = all[way.run];
       line(fmt::format("{} of {}: {}, {}", way.times, all.size(), actions_text(domain_, run.path.actions),
-                       run.has_ended ? "ending " + place(atlas_.id(demo).mdp, run.path.states.back()) : "and so on"),
+                       run.has_ended ? "ending " + place(atlas_.id(start).mdp, run.path.states.back()) : "and so on"),
            7);
     }
     if (ways.size() > kFew) line(fmt::format("and {}", counted(ways.size() - kFew, "other path")), 7);
@@ -102,13 +102,13 @@ class CurriculumText {
   }
 
   void test(std::size_t j, const CurriculumTest& test) {
-    const auto id = atlas_.id(test.demo);
-    const auto path = atlas_.trajectory(test.demo);
+    const auto id = atlas_.id(test.start);
+    const auto path = atlas_.trajectory(test.start);
     out_ += fmt::format("\n   Test {}: {}, {} (before it about {:.0f} % would answer correctly)\n", j + 1,
                         world_text(domain_, id.mdp), name_of(test.difficulty), 100.0 * test.share_right);
     out_ += start_and_path(domain_, id, path, 5);
     line("answer: " + with_chance(id.mdp, path), 5);
-    runs(test.demo, test.runs);
+    runs(test.start, test.runs);
     for (const auto& sentence : all_in_words(domain_, test.covers)) line("shows that " + sentence, 5);
   }
 

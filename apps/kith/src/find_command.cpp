@@ -56,32 +56,32 @@ void list_constraints(const Atlas& atlas, Console& console) {
   console.print("start states that teach or test one constraint and nothing else\n" + table.text(console));
 }
 
-std::string reason_of(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
-  const auto contrast = contrast_for(atlas, demo, constraint);
+std::string reason_of(const Atlas& atlas, StartIndex start, const HalfSpace& constraint) {
+  const auto contrast = contrast_for(atlas, start, constraint);
   return contrast ? reason(atlas, *contrast) : in_words(atlas.domain(), constraint);
 }
 
-void print_finding(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose,
+void print_finding(const Atlas& atlas, StartIndex start, const HalfSpace& constraint, Purpose purpose,
                    Console& console) {
   const auto& domain = atlas.domain();
-  const auto id = atlas.id(demo);
-  const auto path = atlas.trajectory(demo);
+  const auto id = atlas.id(start);
+  const auto path = atlas.trajectory(start);
   // Without tables whole paths that people could expect are not known.
   const bool is_rough = purpose == Purpose::kTest && atlas.find_tables() == nullptr;
   console.print(fmt::format("W{}, start {} {} exactly this{}: {}\n", world_text(domain, id.mdp).substr(1),
                             id.start.value(), purpose == Purpose::kTeach ? "teaches" : "tests",
                             is_rough ? ", as far as single other actions tell" : "", described(domain, constraint)) +
-                wrapped(reason_of(atlas, demo, constraint), kTextWidth) + "\n" + start_and_path(domain, id, path, 2) +
+                wrapped(reason_of(atlas, start, constraint), kTextWidth) + "\n" + start_and_path(domain, id, path, 2) +
                 "  the robot: " + actions_text(domain, id.mdp, path) + "\n\n" + legend(domain, 0));
 }
 
-void print_finding_json(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose,
+void print_finding_json(const Atlas& atlas, StartIndex start, const HalfSpace& constraint, Purpose purpose,
                         Console& console) {
   const auto& domain = atlas.domain();
-  const auto id = atlas.id(demo);
+  const auto id = atlas.id(start);
   auto json = board_json(domain, id);
-  json.update(path_json(domain, id.mdp, atlas.trajectory(demo)));
-  json["reason"] = reason_of(atlas, demo, constraint);
+  json.update(path_json(domain, id.mdp, atlas.trajectory(start)));
+  json["reason"] = reason_of(atlas, start, constraint);
   console.print_json({{"schema", "kith.find/1"},
                       {"program", program_name()},
                       {"domain", board_domain_json(domain)},
@@ -156,11 +156,11 @@ int run(const FindOptions& options, Console& console) {
   }
   const auto constraint = parse_constraint(atlas, wanted);
   const auto purpose = options.test ? Purpose::kTest : Purpose::kTeach;
-  const auto demo = simplest_isolating(atlas, constraint, purpose);
-  if (!demo) throw not_found(atlas, constraint, purpose);
-  if (!options.out.empty()) write_world(options, atlas.domain(), atlas.id(*demo).mdp, console);
+  const auto start = simplest_isolating(atlas, constraint, purpose);
+  if (!start) throw not_found(atlas, constraint, purpose);
+  if (!options.out.empty()) write_world(options, atlas.domain(), atlas.id(*start).mdp, console);
   const auto print = console.json() ? print_finding_json : print_finding;
-  print(atlas, *demo, constraint, purpose, console);
+  print(atlas, *start, constraint, purpose, console);
   return 0;
 }
 

@@ -281,14 +281,14 @@ class Inspection {
     const auto n = starts.size();
     heading(fmt::format("Demonstrations of {}: {}", world_text(domain_, mdp_), n));
     for (std::size_t i = 0; i < limited(n); ++i) {
-      const auto demo = atlas_->index({mdp_, starts[i]});
-      const auto path = atlas_->trajectory(demo);
-      const auto& counts = atlas_->feature_counts(demo);
+      const auto start_index = atlas_->index({mdp_, starts[i]});
+      const auto path = atlas_->trajectory(start_index);
+      const auto& counts = atlas_->feature_counts(start_index);
       out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", starts[i].value(),
                           actions_text(domain_, mdp_, path), counts_text(domain_, counts), return_of(domain_, counts),
-                          atlas_->is_unique(demo) ? "" : ", one of several best paths");
-      out_ += start_and_path(domain_, atlas_->id(demo), path, 4);
-      constraints(atlas_->constraints().half_spaces(atlas_->one_step(demo)), "    ");
+                          atlas_->is_unique(start_index) ? "" : ", one of several best paths");
+      out_ += start_and_path(domain_, atlas_->id(start_index), path, 4);
+      constraints(atlas_->constraints().half_spaces(atlas_->one_step(start_index)), "    ");
     }
     note_cut(n);
   }
@@ -309,17 +309,17 @@ class Inspection {
   }
 
   void counterfactuals() {
-    const auto demo = atlas_->index({mdp_, domain_.initial_state(mdp_)});
+    const auto start_index = atlas_->index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of {}", world_text(domain_, mdp_)));
     if (const auto map = domain_.drawing()) {
-      out_ += beside({bare_picture(*map, atlas_->id(demo)), start_picture(*map, atlas_->id(demo))}, 4);
+      out_ += beside({bare_picture(*map, atlas_->id(start_index)), start_picture(*map, atlas_->id(start_index))}, 4);
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }
     const auto* tables = atlas_->find_tables();
-    if (tables == nullptr) return expected_by_a_sample(demo);
-    const auto& robot = atlas_->feature_counts(demo);
-    const auto paths = tables->coverage_set(demo);
+    if (tables == nullptr) return expected_by_a_sample(start_index);
+    const auto& robot = atlas_->feature_counts(start_index);
+    const auto paths = tables->coverage_set(start_index);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
       if (paths[i] == robot) {
         out_ += "  " + counts_text(domain_, paths[i]) + ": the robot's own path\n";
@@ -332,20 +332,20 @@ class Inspection {
     out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", tables->cells().size());
   }
 
-  void expected_by_a_sample(StartIndex demo) {
+  void expected_by_a_sample(StartIndex start_index) {
     Behaviours behaviours{*atlas_};
-    const auto ways = expected_ways(behaviours, demo);
+    const auto ways = expected_ways(behaviours, start_index);
     out_ += "  by people whose weights fill the prior evenly\n";
     for (std::size_t i = 0; i < limited(ways.size()); ++i) {
       const auto& way = ways[i];
       out_ += fmt::format("  {:3.0f} %  {}: ", 100.0 * way.share, counts_text(domain_, way.counts));
-      const auto told = preference_of_robot(domain_, atlas_->feature_counts(demo) - way.counts);
-      if (way.counts == atlas_->feature_counts(demo)) {
+      const auto told = preference_of_robot(domain_, atlas_->feature_counts(start_index) - way.counts);
+      if (way.counts == atlas_->feature_counts(start_index)) {
         out_ += "the robot's own path\n";
       } else {
         out_ += told ? "shows them " + described(domain_, *told) + "\n" : "just as good\n";
       }
-      const auto path = behaviours.trajectory(demo, way.weights);
+      const auto path = behaviours.trajectory(start_index, way.weights);
       if (path && path->repeats_from) out_ += "         " + actions_text(domain_, mdp_, *path) + "\n";
     }
     note_cut(ways.size());

@@ -266,11 +266,11 @@ TEST(Inspect, PrintsTheKnownFactsOfItemDelivery) {
 TEST(Inspect, ListsDemonstrationsOnDemand) {
   const auto document = Json::parse(run_kith({"inspect", "item-delivery", "--json", "--show", "demos"}).out);
   ASSERT_EQ(document.at("demos").size(), 9312u);
-  const auto& demo = document["demos"][0];
-  for (const auto* key : {"robot", "items", "stations", "mdp"}) EXPECT_TRUE(demo.at("start").contains(key)) << key;
-  EXPECT_EQ(demo.at("features").size(), 3u);
-  EXPECT_TRUE(demo.at("unique").is_boolean());
-  EXPECT_TRUE(demo.at("one_step").is_array());
+  const auto& start = document["demos"][0];
+  for (const auto* key : {"robot", "items", "stations", "mdp"}) EXPECT_TRUE(start.at("start").contains(key)) << key;
+  EXPECT_EQ(start.at("features").size(), 3u);
+  EXPECT_TRUE(start.at("unique").is_boolean());
+  EXPECT_TRUE(start.at("one_step").is_array());
 }
 
 TEST(Inspect, ShowsEveryPart) {

@@ -13,28 +13,28 @@ Atlas::Atlas(Domain domain, BehaviourSource source) : domain_{std::move(domain)}
   AtlasBuilder{*this, source}.build();
 }
 
-Trajectory Atlas::trajectory(StartIndex demo) const {
-  const auto [m, start] = id(demo);
+Trajectory Atlas::trajectory(StartIndex start_index) const {
+  const auto [m, start] = id(start_index);
   const Mdp& mdp = domain_.mdp(m);
   return shown_path(mdp, canonical_choices_[m.value()], shown_next_[m.value()], start);
 }
 
-std::vector<StartIndex> Atlas::path(StartIndex demo) const {
+std::vector<StartIndex> Atlas::path(StartIndex start) const {
   std::vector<StartIndex> path;
-  auto at = static_cast<std::uint32_t>(demo.value());
+  auto at = static_cast<std::uint32_t>(start.value());
   for (; at != kTerminal && demos_[at].cycle_length == 0; at = demos_[at].next) path.emplace_back(at);
   if (at == kTerminal) return path;
   for (auto left = demos_[at].cycle_length; left > 0; --left, at = demos_[at].next) path.emplace_back(at);
   return path;
 }
 
-ActionIndex Atlas::action(StartIndex demo) const {
-  const auto [m, start] = id(demo);
+ActionIndex Atlas::action(StartIndex start_index) const {
+  const auto [m, start] = id(start_index);
   return domain_.mdp(m).choices(start)[canonical_choices_[m.value()][start.value()]].action;
 }
 
-IntegerVector Atlas::deviation_counts(StartIndex demo, std::size_t choice) const {
-  const auto [m, start] = id(demo);
+IntegerVector Atlas::deviation_counts(StartIndex start_index, std::size_t choice) const {
+  const auto [m, start] = id(start_index);
   const Mdp& mdp = domain_.mdp(m);
   const auto choices = mdp.choices(start);
   if (choice >= choices.size()) throw std::invalid_argument{"Atlas::deviation_counts: there is no such choice"};
@@ -54,7 +54,7 @@ Atlas Atlas::with_tests(const std::vector<bool>& is_usable) const {
   if (is_usable.size() != num_states()) throw std::invalid_argument{"Atlas::with_tests: one flag per demonstration"};
   auto atlas = *this;
   for (auto& tests : atlas.tests_for_) {
-    std::erase_if(tests, [&](StartIndex demo) { return !is_usable[demo.value()]; });
+    std::erase_if(tests, [&](StartIndex start) { return !is_usable[start.value()]; });
   }
   return atlas;
 }

@@ -70,10 +70,10 @@ void AtlasBuilder::plan() {
     }
     atlas_.first_demo_.push_back(atlas_.demos_.size());
     for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-      Atlas::Demo demo;
-      demo.id = {m, s};
-      demo.complexity = domain.complexity(demo.id);
-      atlas_.demos_.push_back(demo);
+      Atlas::Demo start;
+      start.id = {m, s};
+      start.complexity = domain.complexity(start.id);
+      atlas_.demos_.push_back(start);
       atlas_.counts_.push_back(plan->counts[s.value()]);
     }
     const auto order = successors_first(mdp, *plan);
@@ -141,7 +141,7 @@ std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
 void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const PathOrder& order) {
   const auto& mdp = atlas_.domain_.mdp(m);
   for (const auto s : order.states) {
-    auto& here = demo(m, s);
+    auto& here = start(m, s);
     const StateIndex next{robot.next[s.value()]};
     here.tie = robot.optimal_choices[s.value()] > 1;
     here.cycle_length = order.cycle_length[s.value()];
@@ -149,7 +149,7 @@ void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const Path
   }
 
   for (const auto s : order.states) {
-    auto& here = demo(m, s);
+    auto& here = start(m, s);
     const StateIndex next{robot.next[s.value()]};
     here.unique = !here.tie;
     std::vector<std::int64_t> key;
@@ -165,8 +165,8 @@ void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const Path
       if (mdp.is_terminal(next)) {
         key.push_back(-2 - static_cast<std::int64_t>(picture(m, next)));
       } else {
-        here.unique = here.unique && demo(m, next).unique;
-        key.push_back(static_cast<std::int64_t>(demo(m, next).trajectory_class));
+        here.unique = here.unique && start(m, next).unique;
+        key.push_back(static_cast<std::int64_t>(start(m, next).trajectory_class));
       }
     }
     here.trajectory_class =
@@ -219,7 +219,7 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot, const Pa
       const auto more = deviations(mdp, robot, order.states[i + j]);
       set.insert(set.end(), more.begin(), more.end());
     }
-    const auto next = demo(m, s).next;
+    const auto next = start(m, s).next;
     if (order.cycle_length[s.value()] == 0 && next != Atlas::kTerminal)
       set.insert(set.end(), raw_sets_[next].begin(), raw_sets_[next].end());
     std::sort(set.begin(), set.end());
@@ -343,10 +343,10 @@ void AtlasBuilder::group_starts() {
 void AtlasBuilder::index_tests() {
   atlas_.tests_for_.resize(atlas_.constraints_.size());
   for (const std::size_t i : candidates()) {
-    const StartIndex demo{i};
-    for (const auto c : atlas_.one_step(demo).members()) {
-      const bool discriminates = !tables_ || tables_->robot_cell_facets(demo).contains(c);
-      if (discriminates) atlas_.tests_for_[c.value()].push_back(demo);
+    const StartIndex start{i};
+    for (const auto c : atlas_.one_step(start).members()) {
+      const bool discriminates = !tables_ || tables_->robot_cell_facets(start).contains(c);
+      if (discriminates) atlas_.tests_for_[c.value()].push_back(start);
     }
   }
 }
@@ -373,7 +373,7 @@ void AtlasBuilder::average_dissimilarities() {
     }
     for (std::size_t i = 0; i < n; ++i) {
       const double mean = others[i] > 0 ? static_cast<double>(sums[i]) / static_cast<double>(others[i]) : 0.0;
-      demo(m, starts[i]).mean_dissimilarity = static_cast<int>(std::lround(mean));
+      start(m, starts[i]).mean_dissimilarity = static_cast<int>(std::lround(mean));
     }
   }
 }

@@ -159,8 +159,8 @@ KnowledgeComponent AtlasBuilder::component(std::vector<std::size_t> features, st
   }
   auto all = atlas_.no_constraints();
   for (const std::size_t i : candidates()) {
-    const auto& demo = atlas_.demos_[i];
-    if (result.uses_mdp[demo.id.mdp.value()]) all |= atlas_.one_step_sets_[demo.one_step];
+    const auto& start = atlas_.demos_[i];
+    if (result.uses_mdp[start.id.mdp.value()]) all |= atlas_.one_step_sets_[start.one_step];
   }
   Regions regions{atlas_.constraints_};
   result.constraints = regions.minimal(all);

@@ -131,15 +131,15 @@ void AtlasBuilder::compare_whole_paths() {
 }
 
 // What is added to what a start shows: the comparisons that follow from the region.
-void AtlasBuilder::show_more(Atlas::Demo& demo, const std::set<HalfSpace>& comparisons, const Cone& region) {
-  auto all = atlas_.constraints_.half_spaces(atlas_.one_step_sets_[demo.one_step]);
+void AtlasBuilder::show_more(Atlas::Demo& start, const std::set<HalfSpace>& comparisons, const Cone& region) {
+  auto all = atlas_.constraints_.half_spaces(atlas_.one_step_sets_[start.one_step]);
   std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(all),
                [&](const HalfSpace& half_space) { return region.implies(half_space); });
   const auto minimal = minimal_set(all);
   KITH_ASSERT(minimal.has_value());
   ConstraintSet set = atlas_.no_constraints();
   for (const HalfSpace& half_space : *minimal) set.insert(atlas_.constraints_.add(half_space));
-  demo.one_step = static_cast<std::uint32_t>(atlas_.one_step_sets_.size());
+  start.one_step = static_cast<std::uint32_t>(atlas_.one_step_sets_.size());
   atlas_.one_step_sets_.push_back(std::move(set));
 }
 

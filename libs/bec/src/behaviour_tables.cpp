@@ -4,16 +4,16 @@
 
 namespace kith {
 
-std::vector<IntegerVector> BehaviourTables::coverage_set(StartIndex demo) const {
-  const auto& start = starts_[demo.value()];
+std::vector<IntegerVector> BehaviourTables::coverage_set(StartIndex start_index) const {
+  const auto& start = starts_[start_index.value()];
   std::vector<IntegerVector> vertices;
   for (const auto& loss : hull(start.hull).losses) vertices.push_back(start.robot_counts - loss);
   std::sort(vertices.begin(), vertices.end());
   return vertices;
 }
 
-std::optional<IntegerVector> BehaviourTables::answer(StartIndex demo, PolicyCellIndex cell) const {
-  const auto& start = starts_[demo.value()];
+std::optional<IntegerVector> BehaviourTables::answer(StartIndex start_index, PolicyCellIndex cell) const {
+  const auto& start = starts_[start_index.value()];
   const auto choice = cells_.choice(cell, start.hull);
   if (choice == PolicyCells::kNone) return std::nullopt;
   return start.robot_counts - hull(start.hull).losses[choice];

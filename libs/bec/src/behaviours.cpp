@@ -60,7 +60,8 @@ PartitionStore::PartitionStore(const Atlas& atlas, std::size_t max_bytes)
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     std::vector<bool> is_on_path(domain.mdp(m).num_states(), false);
     for (const StateIndex start : domain.starts(m)) {
-      for (const StartIndex demo : atlas.path(atlas.index({m, start}))) is_on_path[atlas.id(demo).start.value()] = true;
+      for (const StartIndex start_index : atlas.path(atlas.index({m, start})))
+        is_on_path[atlas.id(start_index).start.value()] = true;
     }
     auto& states = states_.emplace_back();
     for (StateIndex s{0}; s.value() < is_on_path.size(); ++s) {
@@ -117,8 +118,8 @@ Behaviours::~Behaviours() = default;
 
 PolicyCellIndex Behaviours::locate(const Direction& weights) { return people_->locate(weights); }
 
-std::optional<IntegerVector> Behaviours::answer(StartIndex demo, PolicyCellIndex cell) {
-  return people_->answer(demo, cell);
+std::optional<IntegerVector> Behaviours::answer(StartIndex start, PolicyCellIndex cell) {
+  return people_->answer(start, cell);
 }
 
 const Direction& Behaviours::weights(PolicyCellIndex cell) const { return people_->weights(cell); }
@@ -128,16 +129,16 @@ Behaviours::Conveyed Behaviours::conveyed_by_class(const KnowledgeComponent& com
   return people_->conveyed_by_class(component, cells);
 }
 
-ConstraintSet Behaviours::conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) {
-  return people_->conveyed(demo, cells);
+ConstraintSet Behaviours::conveyed(StartIndex start, std::span<const PolicyCellIndex> cells) {
+  return people_->conveyed(start, cells);
 }
 
 std::size_t Behaviours::memory() const noexcept {
   return constraints_.size() * (2 * sizeof(HalfSpace) + kBytesOfNode) + people_->memory();
 }
 
-std::optional<Trajectory> Behaviours::trajectory(StartIndex demo, const Direction& weights) const {
-  const auto [m, start] = atlas_->id(demo);
+std::optional<Trajectory> Behaviours::trajectory(StartIndex start_index, const Direction& weights) const {
+  const auto [m, start] = atlas_->id(start_index);
   const Mdp& mdp = atlas_->domain().mdp(m);
   const auto behaviour = behave_in_favour(mdp, {weights.data(), static_cast<std::size_t>(weights.size())},
                                           robot_weights_, {.scale = atlas_->domain().count_scale()});

@@ -22,12 +22,12 @@ class Expectations {
   virtual ~Expectations() = default;
 
   virtual PolicyCellIndex locate(const Direction& weights) = 0;
-  virtual std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) = 0;
+  virtual std::optional<IntegerVector> answer(StartIndex start, PolicyCellIndex cell) = 0;
   // Throws std::invalid_argument where a cell is not of one person's weights.
   [[nodiscard]] virtual const Direction& weights(PolicyCellIndex cell) const = 0;
   virtual Behaviours::Conveyed conveyed_by_class(const KnowledgeComponent& component,
                                                  std::span<const PolicyCellIndex> cells) = 0;
-  virtual ConstraintSet conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) = 0;
+  virtual ConstraintSet conveyed(StartIndex start, std::span<const PolicyCellIndex> cells) = 0;
   // In bytes, without the constraints.
   [[nodiscard]] virtual std::size_t memory() const noexcept = 0;
 };

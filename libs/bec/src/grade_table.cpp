@@ -19,11 +19,11 @@ void GradeTable::grade_starts(const Atlas& atlas) {
   const std::size_t columns = num_components_ + 1;
   std::vector<double> counts(num_hulls_ * columns, 0.0);
   std::vector<double> totals(columns, 0.0);
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo)) continue;
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start)) continue;
     for (std::size_t k = 0; k < columns; ++k) {
-      if (k < num_components_ && !atlas.knowledge_components()[k].uses_mdp[atlas.id(demo).mdp.value()]) continue;
-      counts[tables.hull(demo).value() * columns + k] += 1.0;
+      if (k < num_components_ && !atlas.knowledge_components()[k].uses_mdp[atlas.id(start).mdp.value()]) continue;
+      counts[tables.hull(start).value() * columns + k] += 1.0;
       totals[k] += 1.0;
     }
   }
@@ -68,8 +68,8 @@ void GradeTable::grade_tests(const Atlas& atlas) {
     double num_facets = 0.0;  // that something tests
     for (const auto facet : component.constraints.members()) {
       std::vector<HullIndex> hulls;
-      for (const auto demo : atlas.tests_for(facet)) {
-        if (component.uses_mdp[atlas.id(demo).mdp.value()]) hulls.push_back(tables.hull(demo));
+      for (const auto start : atlas.tests_for(facet)) {
+        if (component.uses_mdp[atlas.id(start).mdp.value()]) hulls.push_back(tables.hull(start));
       }
       if (hulls.empty()) continue;
       num_facets += 1.0;

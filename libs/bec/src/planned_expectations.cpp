@@ -19,11 +19,11 @@ class PlannedExpectations : public Expectations {
                       std::size_t max_row_bytes, std::shared_ptr<PolicyPartitions> partitions);
 
   PolicyCellIndex locate(const Direction& weights) override;
-  std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) override;
+  std::optional<IntegerVector> answer(StartIndex start, PolicyCellIndex cell) override;
   [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const override { return cells_[cell.value()].weights; }
   Behaviours::Conveyed conveyed_by_class(const KnowledgeComponent& component,
                                          std::span<const PolicyCellIndex> cells) override;
-  ConstraintSet conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) override;
+  ConstraintSet conveyed(StartIndex start, std::span<const PolicyCellIndex> cells) override;
   [[nodiscard]] std::size_t memory() const noexcept override;
 
  private:
@@ -66,7 +66,7 @@ class PlannedExpectations : public Expectations {
   SetIndex union_of(std::vector<SetIndex>& sets);
   void find_sets(MdpIndex m, Kept& behaviour);
   std::vector<BehaviourIndex> behaviours_of(std::span<const PolicyCellIndex> cells, MdpIndex m);
-  SetIndex conveyed_by(StartIndex demo, std::span<const BehaviourIndex> behaviours);
+  SetIndex conveyed_by(StartIndex start, std::span<const BehaviourIndex> behaviours);
   std::vector<SetIndex> sets_by_class(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
   void number_constraints_of(std::span<const SetIndex> sets);
 
@@ -122,15 +122,15 @@ PolicyCellIndex PlannedExpectations::locate(const Direction& weights) {
   return place->second;
 }
 
-std::optional<IntegerVector> PlannedExpectations::answer(StartIndex demo, PolicyCellIndex cell) {
+std::optional<IntegerVector> PlannedExpectations::answer(StartIndex start, PolicyCellIndex cell) {
   make_room();
-  const MdpIndex m = atlas_->id(demo).mdp;
+  const MdpIndex m = atlas_->id(start).mdp;
   const auto b = behaviour_of(cell, m);
   if (b == kNoOptimum) return std::nullopt;
-  const std::int32_t place = partitions_->place(demo);
+  const std::int32_t place = partitions_->place(start);
   KITH_ASSERT(place >= 0);
   const auto loss = worlds_[m.value()].behaviours[static_cast<std::size_t>(b)].losses[static_cast<std::size_t>(place)];
-  return atlas_->feature_counts(demo) - losses_[static_cast<std::size_t>(loss)].counts;
+  return atlas_->feature_counts(start) - losses_[static_cast<std::size_t>(loss)].counts;
 }
 
 // Forgets the behaviours if they take too much; only between two calls, so that numbers stay valid within one.
@@ -323,10 +323,10 @@ std::vector<PlannedExpectations::BehaviourIndex> PlannedExpectations::behaviours
   return found;
 }
 
-PlannedExpectations::SetIndex PlannedExpectations::conveyed_by(StartIndex demo,
+PlannedExpectations::SetIndex PlannedExpectations::conveyed_by(StartIndex start,
                                                                std::span<const BehaviourIndex> behaviours) {
-  const World& world = worlds_[atlas_->id(demo).mdp.value()];
-  const auto place = static_cast<std::size_t>(partitions_->place(demo));
+  const World& world = worlds_[atlas_->id(start).mdp.value()];
+  const auto place = static_cast<std::size_t>(partitions_->place(start));
   std::vector<SetIndex> sets;
   for (const auto behaviour : behaviours) {
     sets.push_back(world.behaviours[static_cast<std::size_t>(behaviour)].sets[place]);
@@ -349,9 +349,9 @@ std::vector<PlannedExpectations::SetIndex> PlannedExpectations::sets_by_class(co
   std::size_t last_mdp = worlds_.size();
   SetIndex last_set = kNoSet;
   for (const auto c : component.start_classes) {
-    const StartIndex demo = atlas_->members(c).front();
-    const std::size_t m = atlas_->id(demo).mdp.value();
-    const auto place = static_cast<std::size_t>(partitions_->place(demo));
+    const StartIndex start = atlas_->members(c).front();
+    const std::size_t m = atlas_->id(start).mdp.value();
+    const auto place = static_cast<std::size_t>(partitions_->place(start));
     own.clear();
     for (const auto behaviour : by_mdp[m]) {
       own.push_back(worlds_[m].behaviours[static_cast<std::size_t>(behaviour)].sets[place]);
@@ -416,11 +416,11 @@ Behaviours::Conveyed PlannedExpectations::conveyed_by_class(const KnowledgeCompo
   return {words, rows_, numbering_};
 }
 
-ConstraintSet PlannedExpectations::conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) {
+ConstraintSet PlannedExpectations::conveyed(StartIndex start, std::span<const PolicyCellIndex> cells) {
   make_room();
   ConstraintSet result;
-  const auto behaviours = behaviours_of(cells, atlas_->id(demo).mdp);
-  for (const std::uint32_t c : *sets_[conveyed_by(demo, behaviours)]) result.insert(ConstraintIndex{c});
+  const auto behaviours = behaviours_of(cells, atlas_->id(start).mdp);
+  for (const std::uint32_t c : *sets_[conveyed_by(start, behaviours)]) result.insert(ConstraintIndex{c});
   return result;
 }
 

@@ -16,16 +16,16 @@ class TabulatedExpectations : public Expectations {
   PolicyCellIndex locate(const Direction& weights) override {
     return tables_->cells().locate(Eigen::Vector3d{weights});
   }
-  std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) override {
-    return tables_->answer(demo, cell);
+  std::optional<IntegerVector> answer(StartIndex start, PolicyCellIndex cell) override {
+    return tables_->answer(start, cell);
   }
   [[nodiscard]] const Direction& weights(PolicyCellIndex /*cell*/) const override {
     throw std::invalid_argument{"Behaviours::weights: a policy cell of an atlas with tables is of many weights"};
   }
   Behaviours::Conveyed conveyed_by_class(const KnowledgeComponent& component,
                                          std::span<const PolicyCellIndex> cells) override;
-  ConstraintSet conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells) override {
-    return tables_->conveyed(atlas_->start_class(demo), cells);
+  ConstraintSet conveyed(StartIndex start, std::span<const PolicyCellIndex> cells) override {
+    return tables_->conveyed(atlas_->start_class(start), cells);
   }
   [[nodiscard]] std::size_t memory() const noexcept override { return cells_with_rows_.size() * bytes_of_rows(); }
 

@@ -30,10 +30,10 @@ TEST(ItemDelivery, HasItsPublishedSize) {
   std::size_t unique = 0;
   std::size_t shortest = std::numeric_limits<std::size_t>::max();
   std::size_t longest = 0;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    ties += atlas.has_tie(demo) ? 1u : 0u;
-    unique += atlas.is_unique(demo) ? 1u : 0u;
-    const auto length = atlas.trajectory(demo).actions.size();
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    ties += atlas.has_tie(start) ? 1u : 0u;
+    unique += atlas.is_unique(start) ? 1u : 0u;
+    const auto length = atlas.trajectory(start).actions.size();
     shortest = std::min(shortest, length);
     longest = std::max(longest, length);
   }
@@ -117,8 +117,8 @@ TEST(Atlas, CanDoWithoutSomeTests) {
   std::size_t left_out = 0;
   for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
     std::vector<StartIndex> expected;
-    for (const auto demo : atlas.tests_for(c)) {
-      if (demo.value() % 2 == 0) expected.push_back(demo);
+    for (const auto start : atlas.tests_for(c)) {
+      if (start.value() % 2 == 0) expected.push_back(start);
     }
     left_out += atlas.tests_for(c).size() - expected.size();
     const auto tests = fewer.tests_for(c);
@@ -131,14 +131,14 @@ TEST(Atlas, CanDoWithoutSomeTests) {
 
 TEST(Atlas, IndexAndIdAreInverse) {
   const auto& atlas = item_delivery();
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) ASSERT_EQ(atlas.index(atlas.id(demo)), demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) ASSERT_EQ(atlas.index(atlas.id(start)), start);
 }
 
 TEST(Atlas, ClassesPartitionTheDemonstrations) {
   const auto& atlas = item_delivery();
   std::size_t members = 0;
   for (StartClassIndex c{0}; c.value() < atlas.num_start_classes(); ++c) {
-    for (const auto demo : atlas.members(c)) ASSERT_EQ(atlas.start_class(demo), c);
+    for (const auto start : atlas.members(c)) ASSERT_EQ(atlas.start_class(start), c);
     members += atlas.members(c).size();
   }
   EXPECT_EQ(members, atlas.num_states());
@@ -158,13 +158,13 @@ TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
     const auto cell = atlas.tables().cells().locate(w);
     for (std::size_t k = 0; k < 3; ++k) points[k].push_back(w[static_cast<Eigen::Index>(k)]);
     cells.push_back(static_cast<std::uint32_t>(cell.value()));
-    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-      const auto answer = atlas.tables().answer(demo, cell);
-      ASSERT_EQ(answer.has_value(), atlas.tables().finite_region(demo).contains(w));
+    for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+      const auto answer = atlas.tables().answer(start, cell);
+      ASSERT_EQ(answer.has_value(), atlas.tables().finite_region(start).contains(w));
       if (!answer) continue;
       const std::array<double, 3> x{w.x(), w.y(), w.z()};
       double best = -std::numeric_limits<double>::infinity();
-      for (const auto& vertex : atlas.tables().coverage_set(demo)) best = std::max(best, dot(vertex, x));
+      for (const auto& vertex : atlas.tables().coverage_set(start)) best = std::max(best, dot(vertex, x));
       ASSERT_NEAR(dot(*answer, x), best, 1e-12);
     }
   }
@@ -220,32 +220,32 @@ TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
     const MdpIndex m{uniform_index(domain.num_mdps(), random)};
     const auto learner = behave_in_favour(domain.mdp(m), x, robot);
     for (StateIndex s{0}; s.value() < domain.mdp(m).num_states(); ++s) {
-      const auto demo = atlas.index({m, s});
+      const auto start = atlas.index({m, s});
       std::vector<HalfSpace> expected;
-      const auto path = atlas.trajectory(demo).states;
+      const auto path = atlas.trajectory(start).states;
       for (std::size_t t = 0; learner && t + 1 < path.size(); ++t) {
         const auto loss = atlas.feature_counts(atlas.index({m, path[t]})) - learner->counts[path[t].value()];
         if (!loss.is_zero()) expected.emplace_back(loss);
       }
       std::sort(expected.begin(), expected.end());
       expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
-      ASSERT_EQ(atlas.constraints().half_spaces(atlas.tables().conveyed(atlas.start_class(demo), cells)), expected);
+      ASSERT_EQ(atlas.constraints().half_spaces(atlas.tables().conveyed(atlas.start_class(start), cells)), expected);
     }
   }
 }
 
 TEST(Atlas, DeviationCountsAreWhatOneStepComparesThePathWith) {
   const auto& atlas = item_delivery();
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 101}) {
+  for (StartIndex start{0}; start.value() < atlas.num_states(); start = StartIndex{start.value() + 101}) {
     std::vector<HalfSpace> comparisons;
-    for (const auto here : atlas.path(demo)) {
+    for (const auto here : atlas.path(start)) {
       const auto& mdp = atlas.domain().mdp(atlas.id(here).mdp);
       for (std::size_t c = 0; c < mdp.choices(atlas.id(here).start).size(); ++c) {
         const auto loss = atlas.feature_counts(here) - atlas.deviation_counts(here, c);
         if (!loss.is_zero()) comparisons.emplace_back(loss);
       }
     }
-    ASSERT_EQ(atlas.constraints().half_spaces(atlas.one_step(demo)), minimal_set(comparisons));
+    ASSERT_EQ(atlas.constraints().half_spaces(atlas.one_step(start)), minimal_set(comparisons));
   }
   EXPECT_THROW(static_cast<void>(atlas.deviation_counts(StartIndex{0}, 99)), std::invalid_argument);
 }
@@ -261,9 +261,9 @@ TEST(Atlas, ClassRowsEqualTheDemonstrationsOwn) {
   }
   const auto rows = atlas.tables().conveyed_by_class(cells);
   const auto words = atlas.words_per_set();
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 7}) {
-    const auto row = std::span{rows}.subspan(atlas.start_class(demo).value() * words, words);
-    ASSERT_EQ(ConstraintSet{row}, atlas.tables().conveyed(atlas.start_class(demo), cells));
+  for (StartIndex start{0}; start.value() < atlas.num_states(); start = StartIndex{start.value() + 7}) {
+    const auto row = std::span{rows}.subspan(atlas.start_class(start).value() * words, words);
+    ASSERT_EQ(ConstraintSet{row}, atlas.tables().conveyed(atlas.start_class(start), cells));
   }
 }
 
@@ -272,15 +272,15 @@ TEST(Atlas, TestsDiscriminateTheirConstraint) {
   const auto& atlas = item_delivery();
   std::size_t tested = 0;
   for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
-    for (const auto demo : atlas.tests_for(c)) {
-      ASSERT_TRUE(atlas.one_step(demo).contains(c));
-      auto others = atlas.tables().robot_cell_facets(demo);
+    for (const auto start : atlas.tests_for(c)) {
+      ASSERT_TRUE(atlas.one_step(start).contains(c));
+      auto others = atlas.tables().robot_cell_facets(start);
       ASSERT_TRUE(others.contains(c));
       std::vector<HalfSpace> sides = atlas.constraints().half_spaces(others);
       const auto flip = std::find(sides.begin(), sides.end(), atlas.constraints()[c]);
       ASSERT_NE(flip, sides.end());
       *flip = flip->opposite();
-      for (const auto& facet : atlas.tables().finite_region(demo).facets()) sides.push_back(facet);
+      for (const auto& facet : atlas.tables().finite_region(start).facets()) sides.push_back(facet);
       const auto beyond = Cone::intersection(sides);
       ASSERT_TRUE(beyond.has_value());
       ++tested;
@@ -292,8 +292,8 @@ TEST(Atlas, TestsDiscriminateTheirConstraint) {
 TEST(Atlas, NextToTheRobotsWeightsEverybodyAnswersLikeTheRobot) {
   const auto& atlas = item_delivery();
   const auto cell = atlas.tables().cells().locate(atlas.domain().weights().unit);
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    ASSERT_EQ(atlas.tables().answer(demo, cell), atlas.feature_counts(demo));
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    ASSERT_EQ(atlas.tables().answer(start, cell), atlas.feature_counts(start));
   }
 }
 

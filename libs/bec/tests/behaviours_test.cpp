@@ -56,12 +56,12 @@ TEST(Behaviours, AtlasWithoutTablesKnowsTheSamePolicy) {
   EXPECT_EQ(on_demand().policy_bec_half_spaces(), tables.policy_bec_half_spaces());
   EXPECT_EQ(on_demand().policy_bec_area_sr(), tables.policy_bec_area_sr());
   ASSERT_EQ(on_demand().num_states(), tables.num_states());
-  for (StartIndex demo{0}; demo.value() < tables.num_states(); ++demo) {
-    ASSERT_EQ(on_demand().feature_counts(demo), tables.feature_counts(demo));
-    ASSERT_EQ(on_demand().constraints().half_spaces(on_demand().one_step(demo)),
-              tables.constraints().half_spaces(tables.one_step(demo)));
-    ASSERT_EQ(on_demand().mean_dissimilarity(demo), tables.mean_dissimilarity(demo));
-    ASSERT_TRUE(on_demand().is_candidate(demo));
+  for (StartIndex start{0}; start.value() < tables.num_states(); ++start) {
+    ASSERT_EQ(on_demand().feature_counts(start), tables.feature_counts(start));
+    ASSERT_EQ(on_demand().constraints().half_spaces(on_demand().one_step(start)),
+              tables.constraints().half_spaces(tables.one_step(start)));
+    ASSERT_EQ(on_demand().mean_dissimilarity(start), tables.mean_dissimilarity(start));
+    ASSERT_TRUE(on_demand().is_candidate(start));
   }
 }
 
@@ -83,12 +83,12 @@ TEST(Behaviours, PlansWhatTheTablesSay) {
     }
     const auto from_tables = tables.conveyed_by_class(all, in_tables);
     const auto from_plans = plans.conveyed_by_class(all_planned, in_plans);
-    for (StartIndex demo{0}; demo.value() < item_delivery().num_states(); demo = StartIndex{demo.value() + 7}) {
-      ASSERT_EQ(plans.constraints().half_spaces(from_plans.set(on_demand().start_class(demo))),
-                tables.constraints().half_spaces(from_tables.set(item_delivery().start_class(demo))));
+    for (StartIndex start{0}; start.value() < item_delivery().num_states(); start = StartIndex{start.value() + 7}) {
+      ASSERT_EQ(plans.constraints().half_spaces(from_plans.set(on_demand().start_class(start))),
+                tables.constraints().half_spaces(from_tables.set(item_delivery().start_class(start))));
       for (std::size_t i = 0; i < in_plans.size(); ++i) {
-        const auto answer = plans.answer(demo, in_plans[i]);
-        ASSERT_EQ(answer, tables.answer(demo, in_tables[i]));
+        const auto answer = plans.answer(start, in_plans[i]);
+        ASSERT_EQ(answer, tables.answer(start, in_tables[i]));
         with_optimum += answer.has_value() ? 1u : 0u;
       }
     }
@@ -104,12 +104,12 @@ TEST(Behaviours, ForgetsAndPlansAgain) {
   for (int i = 0; i < 5; ++i) weights.push_back(random_weights(random, 3));
   for (int round = 0; round < 2; ++round) {
     for (const auto& w : weights) {
-      for (const StartIndex demo : {StartIndex{17}, StartIndex{4000}, StartIndex{9000}}) {
-        EXPECT_EQ(few.answer(demo, few.locate(w)), plenty.answer(demo, plenty.locate(w)));
+      for (const StartIndex start : {StartIndex{17}, StartIndex{4000}, StartIndex{9000}}) {
+        EXPECT_EQ(few.answer(start, few.locate(w)), plenty.answer(start, plenty.locate(w)));
         const auto cell = few.locate(w);
         const auto other = plenty.locate(w);
-        EXPECT_EQ(few.constraints().half_spaces(few.conveyed(demo, {&cell, 1})),
-                  plenty.constraints().half_spaces(plenty.conveyed(demo, {&other, 1})));
+        EXPECT_EQ(few.constraints().half_spaces(few.conveyed(start, {&cell, 1})),
+                  plenty.constraints().half_spaces(plenty.conveyed(start, {&other, 1})));
       }
     }
   }
@@ -134,8 +134,8 @@ TEST(PartitionStore, KeepsNoMoreThanItMayAndAnswersAllTheSame) {
         ++num_renewed;
       }
       Behaviours few{on_demand(), 2, 0, views[i]};
-      for (const StartIndex demo : {StartIndex{17}, StartIndex{4000}, StartIndex{9000}}) {
-        ASSERT_EQ(few.answer(demo, few.locate(weights)), plenty.answer(demo, plenty.locate(weights)));
+      for (const StartIndex start : {StartIndex{17}, StartIndex{4000}, StartIndex{9000}}) {
+        ASSERT_EQ(few.answer(start, few.locate(weights)), plenty.answer(start, plenty.locate(weights)));
       }
       ASSERT_LE(store->memory(), kMost + kOneLookup);
     }
@@ -152,10 +152,10 @@ TEST(PartitionStore, IsSharedByThreads) {
   std::vector<Direction> weights;
   std::vector<std::optional<IntegerVector>> expected;
   Behaviours alone{on_demand()};
-  const StartIndex demo{4000};
+  const StartIndex start{4000};
   for (int i = 0; i < 60; ++i) {
     weights.push_back(random_weights(random, 3));
-    expected.push_back(alone.answer(demo, alone.locate(weights.back())));
+    expected.push_back(alone.answer(start, alone.locate(weights.back())));
   }
   std::vector<std::size_t> num_wrong(kThreads, 0);
   std::vector<std::thread> threads;
@@ -165,7 +165,7 @@ TEST(PartitionStore, IsSharedByThreads) {
       auto behaviours = std::make_unique<Behaviours>(on_demand(), 8, 0, view);
       for (std::size_t i = 0; i < weights.size(); ++i) {
         const std::size_t at = (i * (2 * t + 1) + 7 * t) % weights.size();
-        num_wrong[t] += behaviours->answer(demo, behaviours->locate(weights[at])) != expected[at] ? 1u : 0u;
+        num_wrong[t] += behaviours->answer(start, behaviours->locate(weights[at])) != expected[at] ? 1u : 0u;
         if (i % 8 != 0 || !view->is_outdated()) continue;
         behaviours.reset();
         view->renew();
@@ -188,21 +188,21 @@ TEST(Behaviours, DiscountedOnesAreComparedByExpectedCounts) {
   }
   // Counts of the path that is shown, discounted.
   const auto scale = static_cast<double>(atlas.domain().count_scale());
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 101}) {
-    const auto path = atlas.trajectory(demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); start = StartIndex{start.value() + 101}) {
+    const auto path = atlas.trajectory(start);
     const double steps = (1.0 - std::pow(0.98, static_cast<double>(path.actions.size()))) / 0.02;
-    EXPECT_NEAR(static_cast<double>(atlas.feature_counts(demo)[2]) / scale, steps, 1e-6);
+    EXPECT_NEAR(static_cast<double>(atlas.feature_counts(start)[2]) / scale, steps, 1e-6);
   }
   // The robot's own weights expect what the robot does; nobody else's earn more.
   Behaviours behaviours{atlas};
   const auto own = behaviours.locate(robot.unit);
   auto random = RandomStream{8}.split("weights");
   const auto other = behaviours.locate(random_weights(random, 3));
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); demo = StartIndex{demo.value() + 997}) {
-    EXPECT_TRUE(behaviours.conveyed(demo, {&own, 1}).empty());
-    const auto answer = behaviours.answer(demo, other);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); start = StartIndex{start.value() + 997}) {
+    EXPECT_TRUE(behaviours.conveyed(start, {&own, 1}).empty());
+    const auto answer = behaviours.answer(start, other);
     ASSERT_TRUE(answer.has_value());
-    EXPECT_GT(robot.return_of(atlas.feature_counts(demo) - *answer) / scale, -1e-6);
+    EXPECT_GT(robot.return_of(atlas.feature_counts(start) - *answer) / scale, -1e-6);
   }
 }
 

@@ -98,9 +98,9 @@ void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::u
       if (!solution) continue;
       has_optimum = true;
       for (std::size_t s = 0; s < domain.mdp(MdpIndex{m}).num_states(); ++s) {
-        const auto demo = atlas.index({MdpIndex{m}, StateIndex{s}});
+        const auto start = atlas.index({MdpIndex{m}, StateIndex{s}});
         double best = -std::numeric_limits<double>::infinity();
-        for (const auto& mu : atlas.tables().coverage_set(demo)) {
+        for (const auto& mu : atlas.tables().coverage_set(start)) {
           double value = 0.0;
           for (std::size_t k = 0; k < 3; ++k) value += static_cast<double>(mu[k]) * weights[k];
           best = std::max(best, value);

@@ -18,30 +18,30 @@ using testing::discounted_domain;
 using testing::kDiscounts;
 
 // What a path counts is what the atlas says: the way in, and the cycle as a geometric series.
-void expect_counts(const Atlas& atlas, StartIndex demo, const Trajectory& path) {
+void expect_counts(const Atlas& atlas, StartIndex start, const Trajectory& path) {
   const auto& domain = atlas.domain();
-  const auto& mdp = domain.mdp(atlas.id(demo).mdp);
+  const auto& mdp = domain.mdp(atlas.id(start).mdp);
   if (!mdp.is_deterministic()) return;  // expectations are of more than one path
   const auto counts = path_features(mdp, path);
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    const auto known = static_cast<double>(atlas.feature_counts(demo)[k]) / static_cast<double>(domain.count_scale());
-    ASSERT_NEAR(counts[k], known, 1e-6) << domain.id() << " demo " << demo.value() << " feature " << k;
+    const auto known = static_cast<double>(atlas.feature_counts(start)[k]) / static_cast<double>(domain.count_scale());
+    ASSERT_NEAR(counts[k], known, 1e-6) << domain.id() << " demo " << start.value() << " feature " << k;
   }
 }
 
 // The path ends, or comes back once, and every state on it is one of its own demonstrations.
-void expect_whole(const Atlas& atlas, StartIndex demo, const Trajectory& path) {
-  const auto [m, start] = atlas.id(demo);
+void expect_whole(const Atlas& atlas, StartIndex start_index, const Trajectory& path) {
+  const auto [m, start] = atlas.id(start_index);
   ASSERT_GE(path.actions.size(), 1U);
   ASSERT_EQ(path.states.size(), path.actions.size() + 1);
   ASSERT_EQ(path.states.front(), start);
-  ASSERT_EQ(path.actions.front(), atlas.action(demo));
+  ASSERT_EQ(path.actions.front(), atlas.action(start_index));
   ASSERT_NE(path.repeats_from.has_value(), atlas.domain().mdp(m).is_terminal(path.states.back()));
   if (path.repeats_from) {
     ASSERT_LT(*path.repeats_from, path.actions.size());
     ASSERT_EQ(path.states[*path.repeats_from], path.states.back());
   }
-  const auto states = atlas.path(demo);
+  const auto states = atlas.path(start_index);
   ASSERT_EQ(states.size(), path.actions.size());
   std::set<std::size_t> met;
   for (std::size_t t = 0; t < states.size(); ++t) {
@@ -53,16 +53,16 @@ void expect_whole(const Atlas& atlas, StartIndex demo, const Trajectory& path) {
 }
 
 // What every single deviation from the path tells follows from what the start shows.
-void expect_shown(const Atlas& atlas, StartIndex demo) {
-  const auto shown = Cone::intersection(atlas.constraints().half_spaces(atlas.one_step(demo)));
+void expect_shown(const Atlas& atlas, StartIndex start) {
+  const auto shown = Cone::intersection(atlas.constraints().half_spaces(atlas.one_step(start)));
   const auto& weights = atlas.domain().weights().integer;
-  for (const auto here : atlas.path(demo)) {
+  for (const auto here : atlas.path(start)) {
     const auto [m, s] = atlas.id(here);
     for (std::size_t c = 0; c < atlas.domain().mdp(m).choices(s).size(); ++c) {
       const auto told =
           preference_of_robot(atlas.domain(), atlas.feature_counts(here) - atlas.deviation_counts(here, c));
       if (!told || sign_of_dot(told->normal(), weights) == 0) continue;
-      ASSERT_TRUE(shown && shown->implies(*told)) << atlas.domain().id() << " demo " << demo.value();
+      ASSERT_TRUE(shown && shown->implies(*told)) << atlas.domain().id() << " demo " << start.value();
     }
   }
 }
@@ -70,15 +70,15 @@ void expect_shown(const Atlas& atlas, StartIndex demo) {
 void expect_laws(const Atlas& atlas, std::size_t stride, std::size_t& endless) {
   std::map<std::uint32_t, Trajectory> looks;
   for (std::size_t i = 0; i < atlas.num_states(); i += 1 + i % stride) {
-    const StartIndex demo{i};
-    const auto path = atlas.trajectory(demo);
+    const StartIndex start{i};
+    const auto path = atlas.trajectory(start);
     endless += path.repeats_from ? 1U : 0U;
-    expect_whole(atlas, demo, path);
-    expect_counts(atlas, demo, path);
-    const auto& alike = looks.try_emplace(atlas.trajectory_class(demo), path).first->second;
+    expect_whole(atlas, start, path);
+    expect_counts(atlas, start, path);
+    const auto& alike = looks.try_emplace(atlas.trajectory_class(start), path).first->second;
     ASSERT_EQ(alike.actions, path.actions);
     ASSERT_EQ(alike.repeats_from, path.repeats_from);
-    if (atlas.is_candidate(demo) && i % 16 == 0) expect_shown(atlas, demo);
+    if (atlas.is_candidate(start) && i % 16 == 0) expect_shown(atlas, start);
     if (::testing::Test::HasFatalFailure()) return;
   }
 }
@@ -146,9 +146,9 @@ TEST(EndlessPath, ConveyTheSameAtAllStatesOfACycle) {
     for (double& w : weights) w += 0.3 * standard_normal(random);
     const std::vector<PolicyCellIndex> cells{behaviours.locate(weights.normalized())};
     for (std::size_t i = 0; i < atlas.num_states(); ++i) {
-      const StartIndex demo{i};
-      const auto path = atlas.path(demo);
-      if (!atlas.trajectory(demo).repeats_from) continue;
+      const StartIndex start{i};
+      const auto path = atlas.path(start);
+      if (!atlas.trajectory(start).repeats_from) continue;
       ConstraintSet at_each;
       for (const auto here : path) {
         const auto answer = behaviours.answer(here, cells.front());
@@ -157,7 +157,7 @@ TEST(EndlessPath, ConveyTheSameAtAllStatesOfACycle) {
         if (half_space && sign_of_dot(half_space->normal(), atlas.domain().weights().integer) > 0)
           at_each |= behaviours.numbers_of({&*half_space, 1});
       }
-      EXPECT_EQ(behaviours.conveyed(demo, cells).members(), at_each.members());
+      EXPECT_EQ(behaviours.conveyed(start, cells).members(), at_each.members());
       told += at_each.empty() ? 0U : 1U;
     }
   }

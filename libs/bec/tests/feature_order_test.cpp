@@ -162,9 +162,9 @@ void expect_equivariance(const std::string& name) {
     ASSERT_EQ(permuted.num_states(), original.num_states()) << where;
     const auto stride = original.num_states() / 50 + 1;
     for (std::size_t i = 0; i < original.num_states(); i += stride) {
-      const StartIndex demo{i};
-      if (!original.is_candidate(demo)) continue;
-      const auto shown = original.one_step(demo), shown_there = permuted.one_step(demo);
+      const StartIndex start{i};
+      if (!original.is_candidate(start)) continue;
+      const auto shown = original.one_step(start), shown_there = permuted.one_step(start);
       ASSERT_EQ(back(permuted.constraints().half_spaces(shown_there), order),
                 back(original.constraints().half_spaces(shown), straight))
           << where << ", demonstration " << i;

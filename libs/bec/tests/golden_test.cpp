@@ -73,15 +73,16 @@ TEST(GoldenItemDelivery, OneStepMinimalSetsAgreeWhereTheOptimumIsUnique) {
       ASSERT_EQ(starts[i].at("traj_idx"), sets[i].at("traj_idx"));
       const auto s = atlas.domain().map()->find_state(MdpIndex{m}, grid_state(starts[i].at("state")));
       ASSERT_TRUE(s.has_value());
-      const auto demo = atlas.index({MdpIndex{m}, *s});
+      const auto start = atlas.index({MdpIndex{m}, *s});
       const auto& counts = starts[i].at("features");
-      ASSERT_EQ(atlas.feature_counts(demo), (IntegerVector{counts[0].get<std::int64_t>(), counts[1].get<std::int64_t>(),
-                                                           counts[2].get<std::int64_t>()}));
-      ASSERT_NEAR(atlas.domain().weights().return_of(atlas.feature_counts(demo)), starts[i].at("return").get<double>(),
+      ASSERT_EQ(
+          atlas.feature_counts(start),
+          (IntegerVector{counts[0].get<std::int64_t>(), counts[1].get<std::int64_t>(), counts[2].get<std::int64_t>()}));
+      ASSERT_NEAR(atlas.domain().weights().return_of(atlas.feature_counts(start)), starts[i].at("return").get<double>(),
                   1e-12);
-      const auto ours = atlas.constraints().half_spaces(atlas.one_step(demo));
+      const auto ours = atlas.constraints().half_spaces(atlas.one_step(start));
       const auto theirs = half_spaces_of(sets[i].at("trajectory_min_constraints"));
-      if (atlas.is_unique(demo)) {
+      if (atlas.is_unique(start)) {
         ++unique;
         ASSERT_EQ(ours, theirs) << "world " << m << ", start " << starts[i].at("state").dump();
       } else {

@@ -32,11 +32,11 @@ TEST(GradeTable, IsTheMeanOverAllStarts) {
   const auto& raw = atlas.domain().weights().raw;
   for (std::size_t cell = 0; cell < atlas.tables().cells().size(); cell += 40) {
     double right = 0.0, regret = 0.0;
-    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-      const auto& robot = atlas.feature_counts(demo);
+    for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+      const auto& robot = atlas.feature_counts(start);
       double worst = 0.0;
-      for (const auto& counts : atlas.tables().coverage_set(demo)) worst = std::max(worst, dot(robot - counts, raw));
-      const auto answer = atlas.tables().answer(demo, PolicyCellIndex{cell});
+      for (const auto& counts : atlas.tables().coverage_set(start)) worst = std::max(worst, dot(robot - counts, raw));
+      const auto answer = atlas.tables().answer(start, PolicyCellIndex{cell});
       const double loss = answer ? dot(robot - *answer, raw) : worst;
       right += answer && loss == 0.0 ? 1.0 : 0.0;
       regret += loss;

@@ -49,10 +49,10 @@ TEST_P(Indifference, WeightsOfThePolicysClassActOptimally) {
   RandomStream random{31};
   for (int i = 0; i < 12; ++i) {
     const auto cell = atlas.tables().cells().locate(bec->sample(random));
-    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-      const auto answer = atlas.tables().answer(demo, cell);
+    for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+      const auto answer = atlas.tables().answer(start, cell);
       ASSERT_TRUE(answer.has_value());
-      ASSERT_EQ(sign_of_dot(weights, atlas.feature_counts(demo) - *answer), 0);
+      ASSERT_EQ(sign_of_dot(weights, atlas.feature_counts(start) - *answer), 0);
     }
   }
 }

@@ -198,10 +198,10 @@ TEST(Inference, LeavesOutEveryStartThatMeetsWhatIsNotExplained) {
   EXPECT_EQ(reading.domain->num_starts() + found.left_out.size(), open.num_starts());
   const Atlas atlas{*reading.domain};
   std::size_t shown = 0;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo)) continue;
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start)) continue;
     ++shown;
-    for (const StartIndex on : atlas.path(demo)) {
+    for (const StartIndex on : atlas.path(start)) {
       const auto s = atlas.id(on).start;
       for (const auto& one : found.unexplained) EXPECT_NE(s, one.state.start);
     }

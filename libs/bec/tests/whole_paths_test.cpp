@@ -74,11 +74,11 @@ Predictions predictions_within(const Atlas& atlas, const ConstraintSet& set, std
   double total = 0.0;
   for (Eigen::Index i = 0; i < people.cols(); ++i) {
     const auto cell = behaviours.locate(people.col(i));
-    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-      if (!atlas.is_candidate(demo)) continue;
-      const auto answer = behaviours.answer(demo, cell);
+    for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+      if (!atlas.is_candidate(start)) continue;
+      const auto answer = behaviours.answer(start, cell);
       if (!answer) continue;
-      const double regret = atlas.domain().weights().return_of(atlas.feature_counts(demo) - *answer);
+      const double regret = atlas.domain().weights().return_of(atlas.feature_counts(start) - *answer);
       sum.share_right += regret <= 0.0 ? 1.0 : 0.0;
       sum.regret += regret;
       total += 1.0;

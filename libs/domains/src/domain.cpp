@@ -25,9 +25,9 @@ std::int64_t expectation_scale(double largest_feature) {
   throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
 }
 
-[[noreturn]] void refuse_start(StartId demo, const char* function) {
+[[noreturn]] void refuse_start(StartId start, const char* function) {
   throw std::invalid_argument{std::string{function} + ": there is no start state " +
-                              std::to_string(demo.start.value())};
+                              std::to_string(start.start.value())};
 }
 
 // visit(member) of either kind.
@@ -51,13 +51,13 @@ const Mdp& mdp_of(const Domain::Data& data, MdpIndex m, const char* function) {
 
 // Called in inner loops, so what it rarely does is elsewhere.
 template <typename Family>
-void check_start(const Family& family, StartId demo, const char* function) {
-  if (demo.mdp.value() >= family.members.size()) refuse_mdp(demo.mdp, function);
-  if (demo.start.value() >= family.members[demo.mdp.value()].mdp.num_states()) refuse_start(demo, function);
+void check_start(const Family& family, StartId start, const char* function) {
+  if (start.mdp.value() >= family.members.size()) refuse_mdp(start.mdp, function);
+  if (start.start.value() >= family.members[start.mdp.value()].mdp.num_states()) refuse_start(start, function);
 }
 
-std::size_t row_of(const GridFamily& grid, StartId demo) {
-  return grid.first_state[demo.mdp.value()] + demo.start.value();
+std::size_t row_of(const GridFamily& grid, StartId start) {
+  return grid.first_state[start.mdp.value()] + start.start.value();
 }
 
 }  // namespace
@@ -195,8 +195,8 @@ std::vector<OptionalGroup> Domain::optional_groups() const {
 
 namespace {
 
-int complexity_of(const GridFamily& grid, StartId demo) {
-  return grid.members[demo.mdp.value()].num_toggled + grid.num_stations[row_of(grid, demo)];
+int complexity_of(const GridFamily& grid, StartId start) {
+  return grid.members[start.mdp.value()].num_toggled + grid.num_stations[row_of(grid, start)];
 }
 
 int complexity_of(const ExplicitFamily&, StartId) { return 0; }
@@ -234,11 +234,11 @@ int dissimilarity_of(const ExplicitFamily& model, StartId a, StartId b) {
 
 }  // namespace
 
-int Domain::complexity(StartId demo) const {
+int Domain::complexity(StartId start) const {
   return std::visit(
       [&](const auto& family) {
-        check_start(family, demo, "Domain::complexity");
-        return complexity_of(family, demo);
+        check_start(family, start, "Domain::complexity");
+        return complexity_of(family, start);
       },
       data_->family);
 }

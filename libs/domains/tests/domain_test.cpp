@@ -182,8 +182,8 @@ TEST_P(DomainLaws, VariantsCountUpWithTheLastBitFastest) {
 
 // The documented formula over digits that the test collects itself.
 TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
-  const auto digits = [&](StartId demo) {
-    const GridState s = domain_.map()->state(demo.mdp, demo.start);
+  const auto digits = [&](StartId start) {
+    const GridState s = domain_.map()->state(start.mdp, start.start);
     std::vector<int> list{s.robot.x, s.robot.y};
     for (std::size_t i = 0; i < s.items.size(); ++i) {
       list.insert(list.end(), {s.items[i].x, s.items[i].y, s.carried[i] ? 1 : 0});

@@ -21,8 +21,8 @@ Answerer::Spot Answerer::spot_of(MdpIndex world, StateIndex s) const {
 void Answerer::add_places(MdpIndex world, std::map<Spot, Place>& places) const {
   const auto start = scene_.start_in(world);
   if (!start) return;
-  const auto demo = *start;
-  const auto path = atlas_.trajectory(demo);
+  const auto start_index = *start;
+  const auto path = atlas_.trajectory(start_index);
   std::map<Spot, std::optional<std::size_t>> seen;  // and at which step it happens
   std::map<Spot, std::size_t> first_visit;
   for (std::size_t t = 0; t < path.actions.size(); ++t) {
@@ -36,7 +36,7 @@ void Answerer::add_places(MdpIndex world, std::map<Spot, Place>& places) const {
     ++place.visited;
     if (step.has_value() == question_.negated) continue;
     if (place.worlds++ > 0) continue;
-    place.demo = demo;
+    place.start = start_index;
     place.step = step.value_or(first_visit.at(spot));
     place.text = scene_.spot_text(world, path.states[place.step]);
   }
@@ -65,8 +65,8 @@ void Answerer::where() {
                 " " + on_the_way() + ".";
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxCells); ++i) {
     const auto& place = sorted[i];
-    show(place.demo,
-         scene_.name_of(atlas_.id(place.demo).mdp) + ", " + place.text + ", step " + std::to_string(place.step + 1),
+    show(place.start,
+         scene_.name_of(atlas_.id(place.start).mdp) + ", " + place.text + ", step " + std::to_string(place.step + 1),
          std::nullopt, place.step);
   }
 }

@@ -65,8 +65,8 @@ void Answerer::show_why_true(const HalfSpace& said, const std::vector<HalfSpace>
   constexpr std::size_t kFew = 2;
   for (const auto& facet : needed) {
     if (reply_.examples.size() == kFew) break;
-    const auto demo = demonstration_of(facet);
-    if (demo) show(*demo, in_words(domain_, facet, facets), contrast_for(atlas_, *demo, facet));
+    const auto start = demonstration_of(facet);
+    if (start) show(*start, in_words(domain_, facet, facets), contrast_for(atlas_, *start, facet));
   }
 }
 

@@ -10,12 +10,12 @@ namespace kith::detail {
 
 void Answerer::why() {
   const auto world = question_.world.value_or(last_world());
-  const auto demo = scene_.needed_start(world);
+  const auto start = scene_.needed_start(world);
   reply_.question = why_in_words();
   if (question_.is_about_a_step()) {
-    why_at(demo);
+    why_at(start);
   } else {
-    why_path(demo);
+    why_path(start);
   }
 }
 
@@ -30,62 +30,65 @@ std::string Answerer::why_in_words() const {
   return text + scene_.context() + "?";
 }
 
-void Answerer::why_at(StartIndex demo) {
-  const auto [world, start] = atlas_.id(demo);
-  if (question_.happening) scene_.check_possible(demo, *question_.happening);
-  if (question_.instead) scene_.check_possible(demo, *question_.instead);
-  const auto own = atlas_.action(demo);
+void Answerer::why_at(StartIndex start_index) {
+  const auto [world, start] = atlas_.id(start_index);
+  if (question_.happening) scene_.check_possible(start_index, *question_.happening);
+  if (question_.instead) scene_.check_possible(start_index, *question_.instead);
+  const auto own = atlas_.action(start_index);
   const bool does = !question_.happening || scene_.is_at(world, start, own, *question_.happening);
   const bool does_instead = question_.instead && scene_.is_at(world, start, own, *question_.instead);
-  std::string says = scene_.place_text(demo) + " it " + action_words(scene_.action(own));
+  std::string says = scene_.place_text(start_index) + " it " + action_words(scene_.action(own));
   if (!does || does_instead) {
     says = (does ? "but " : "it does not: ") + says;
-    const auto contrast = does_instead ? scene_.contrast_to(demo, *question_.instead, false)
-                                       : scene_.contrast_to(demo, *question_.happening, true);
-    return conclude(demo, says, contrast);
+    const auto contrast = does_instead ? scene_.contrast_to(start_index, *question_.instead, false)
+                                       : scene_.contrast_to(start_index, *question_.happening, true);
+    return conclude(start_index, says, contrast);
   }
-  conclude(demo, says, question_.instead ? scene_.contrast_to(demo, *question_.instead, true) : scene_.best_step(demo));
+  conclude(
+      start_index, says,
+      question_.instead ? scene_.contrast_to(start_index, *question_.instead, true) : scene_.best_step(start_index));
 }
 
-void Answerer::why_path(StartIndex demo) {
-  const auto number = atlas_.id(demo).mdp;
+void Answerer::why_path(StartIndex start) {
+  const auto number = atlas_.id(start).mdp;
   const auto& asked = question_.happening ? *question_.happening : *question_.instead;
   if (!question_.happening) std::swap(question_.happening, question_.instead);  // look_at() takes the happening
-  const auto world = look_at(demo);
+  const auto world = look_at(start);
   const bool does = world.happens;
   const auto what = says_that(asked, world.how()) + " in " + scene_.name_of(number) + chance_text(world);
   if (question_.happening && question_.instead && does) {
-    return conclude(demo, what, scene_.contrast_to(demo, *question_.instead, true),
+    return conclude(start, what, scene_.contrast_to(start, *question_.instead, true),
                     nothing_else(number, *question_.instead, true));
   }
-  conclude(demo, what, scene_.contrast_to(demo, asked, !does), nothing_else(number, asked, !does));
+  conclude(start, what, scene_.contrast_to(start, asked, !does), nothing_else(number, asked, !does));
 }
 
-void Answerer::conclude(StartIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
+void Answerer::conclude(StartIndex start, const std::string& says, const std::optional<Contrast>& contrast,
                         const std::string& nothing) {
   reply_.text = first_upper(says) + "; " + because(contrast, nothing) + ".";
-  show(demo, because(contrast, says), contrast);
+  show(start, because(contrast, says), contrast);
 }
 
 void Answerer::what() {
   const auto world = question_.world.value_or(last_world());
-  const auto demo = scene_.needed_start(world);
-  if (!question_.is_about_a_step()) return what_on_the_way(demo);
+  const auto start = scene_.needed_start(world);
+  if (!question_.is_about_a_step()) return what_on_the_way(start);
   reply_.question = "What does it do" + scene_.context() + "?";
-  reply_.text = first_upper(scene_.place_text(demo)) + " it " + action_words(scene_.action(atlas_.action(demo))) + ".";
-  const auto contrast = scene_.best_step(demo);
-  show(demo, because(contrast, "it has no other choice"), contrast);
+  reply_.text =
+      first_upper(scene_.place_text(start)) + " it " + action_words(scene_.action(atlas_.action(start))) + ".";
+  const auto contrast = scene_.best_step(start);
+  show(start, because(contrast, "it has no other choice"), contrast);
 }
 
 // The whole path, and what it comes to.
-void Answerer::what_on_the_way(StartIndex demo) {
-  const auto world = atlas_.id(demo).mdp;
+void Answerer::what_on_the_way(StartIndex start) {
+  const auto world = atlas_.id(start).mdp;
   reply_.question = "What does it do in " + scene_.name_of(world) + "?";
   reply_.text =
-      "In " + scene_.name_of(world) + " its path has " + counts_text(domain_, atlas_.feature_counts(demo)) + ".";
-  const auto contrast = scene_.any_best_way(demo, [](const Contrast&) { return true; });
-  show(demo,
-       first_upper(actions_text(domain_, world, atlas_.trajectory(demo))) + ": " +
+      "In " + scene_.name_of(world) + " its path has " + counts_text(domain_, atlas_.feature_counts(start)) + ".";
+  const auto contrast = scene_.any_best_way(start, [](const Contrast&) { return true; });
+  show(start,
+       first_upper(actions_text(domain_, world, atlas_.trajectory(start))) + ": " +
            because(contrast, "it has no other choice"),
        contrast);
 }
@@ -105,7 +108,7 @@ void Answerer::how_much() {
     if (each[i].empty() || std::find(sentences.begin(), sentences.end(), each[i]) != sentences.end()) continue;
     sentences.push_back(each[i]);
     if (atlas_.prior_cone().implies(told[i])) continue;
-    if (const auto demo = demonstration_of(told[i])) show(*demo, each[i], contrast_for(atlas_, *demo, told[i]));
+    if (const auto start = demonstration_of(told[i])) show(*start, each[i], contrast_for(atlas_, *start, told[i]));
   }
   if (sentences.empty() && !told.empty()) {
     reply_.text = "What it does limits how much " + name + (is_cost ? " costs" : " is worth") +
@@ -126,11 +129,11 @@ std::optional<StartIndex> Answerer::demonstration_of(const HalfSpace& constraint
   if (!number) return std::nullopt;
   std::optional<StartIndex> best;
   std::size_t least = 0;
-  for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
-    if (!atlas_.is_candidate(demo) || !atlas_.one_step(demo).contains(*number)) continue;
-    const auto length = atlas_.path(demo).size();
+  for (StartIndex start{0}; start.value() < atlas_.num_states(); ++start) {
+    if (!atlas_.is_candidate(start) || !atlas_.one_step(start).contains(*number)) continue;
+    const auto length = atlas_.path(start).size();
     if (best && least <= length) continue;
-    best = demo;
+    best = start;
     least = length;
   }
   return best;

@@ -135,7 +135,7 @@ bool Answerer::has_several(const Contrast& contrast) const {
 }
 
 std::string Answerer::detour(const Contrast& contrast) const {
-  if (!is_exact(domain_.mdp(atlas_.id(contrast.demo).mdp))) {
+  if (!is_exact(domain_.mdp(atlas_.id(contrast.start).mdp))) {
     return "the best other step has no advantage: " +
            on_average_in_words(domain_, contrast.robot_counts - contrast.alternative_counts);
   }
@@ -152,9 +152,9 @@ std::string Answerer::detour(const Contrast& contrast) const {
   return text;
 }
 
-void Answerer::show(StartIndex demo, std::string text, const std::optional<Contrast>& contrast,
+void Answerer::show(StartIndex start, std::string text, const std::optional<Contrast>& contrast,
                     std::optional<std::size_t> step) {
-  Example example{demo, atlas_.trajectory(demo), std::move(text), std::nullopt, step};
+  Example example{start, atlas_.trajectory(start), std::move(text), std::nullopt, step};
   if (contrast) {
     example.path = contrast->robot;
     example.alternative = contrast->alternative;

@@ -80,7 +80,7 @@ class Answerer {
   // What a detour would add and leave out.
   [[nodiscard]] std::string detour(const Contrast& contrast) const;
 
-  void show(StartIndex demo, std::string text, const std::optional<Contrast>& contrast = std::nullopt,
+  void show(StartIndex start_index, std::string text, const std::optional<Contrast>& contrast = std::nullopt,
             std::optional<std::size_t> step = std::nullopt);
 
   // --- when -------------------------------------------------------------------
@@ -125,7 +125,7 @@ class Answerer {
   struct Place {
     std::size_t worlds = 0;   // in which it does (not)
     std::size_t visited = 0;  // worlds in which the robot comes by
-    StartIndex demo;
+    StartIndex start;
     std::size_t step = 0;
     std::string text;  // "at (2,1)"
   };
@@ -144,17 +144,17 @@ class Answerer {
   [[nodiscard]] std::string why_in_words() const;
 
   // About one step.
-  void why_at(StartIndex demo);
+  void why_at(StartIndex start_index);
 
   // About the path from the map's start.
-  void why_path(StartIndex demo);
+  void why_path(StartIndex start_index);
 
-  void conclude(StartIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
+  void conclude(StartIndex start_index, const std::string& says, const std::optional<Contrast>& contrast,
                 const std::string& nothing = "it has no other choice");
 
   // --- what -------------------------------------------------------------------
   void what();
-  void what_on_the_way(StartIndex demo);
+  void what_on_the_way(StartIndex start_index);
 
   // --- what if ----------------------------------------------------------------
   void what_if();

@@ -31,16 +31,16 @@ class Simplest {
  public:
   explicit Simplest(const Atlas& atlas) : atlas_{atlas} {}
 
-  void offer(StartIndex demo, bool is_new, std::size_t besides) {
-    const Rank rank{!is_new, besides, atlas_.complexity(demo)};
+  void offer(StartIndex start, bool is_new, std::size_t besides) {
+    const Rank rank{!is_new, besides, atlas_.complexity(start)};
     if (best_ && rank > rank_) return;
     if (best_ && rank == rank_) {
       // Paths are long to find.
-      const std::pair ties{length(demo), demo}, best{length(*best_), *best_};
+      const std::pair ties{length(start), start}, best{length(*best_), *best_};
       if (best <= ties) return;
     }
     rank_ = rank;
-    best_ = demo;
+    best_ = start;
   }
   [[nodiscard]] std::optional<StartIndex> best() const { return best_; }
 
@@ -51,7 +51,7 @@ class Simplest {
     int complexity = 0;
     friend auto operator<=>(const Rank&, const Rank&) = default;
   };
-  [[nodiscard]] std::size_t length(StartIndex demo) const { return atlas_.trajectory(demo).actions.size(); }
+  [[nodiscard]] std::size_t length(StartIndex start) const { return atlas_.trajectory(start).actions.size(); }
 
   const Atlas& atlas_;
   Rank rank_;  // of best_
@@ -266,12 +266,12 @@ std::vector<TellingAnswer> Auditor::telling(const HalfSpace& violated, std::span
   for (const auto& period : periods) {
     for (std::size_t t = 0; t < period.tests.size() && t < period.answers.size(); ++t) {
       if (!period.answers[t] || period.verdicts[t].correct) continue;
-      if (!concerns(violated, cache_->atlas().feature_counts(period.tests[t].demo) - *period.answers[t])) continue;
+      if (!concerns(violated, cache_->atlas().feature_counts(period.tests[t].start) - *period.answers[t])) continue;
       const auto ratio = factor(violated, period.tests[t], period.answers[t], period.verdicts[t]);
       if (ratio && *ratio < options_.telling) continue;
       found.push_back({.period = period.period,
                        .test = t + 1,
-                       .demo = period.tests[t].demo,
+                       .start = period.tests[t].start,
                        .factor = ratio,
                        .text = answer_in_words(period.tests[t], period.answers[t], period.verdicts[t])});
     }
@@ -310,13 +310,13 @@ std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& tes
   const bool by_path = [&] {
     const auto* tables = atlas.find_tables();
     if (!tables) return false;
-    const auto& losses = tables->hull(tables->hull(test.demo)).losses;
-    return std::find(losses.begin(), losses.end(), atlas.feature_counts(test.demo) - *answer) != losses.end();
+    const auto& losses = tables->hull(tables->hull(test.start)).losses;
+    return std::find(losses.begin(), losses.end(), atlas.feature_counts(test.start) - *answer) != losses.end();
   }();
   for (const auto& [point, cell] : everybody_) {
     const std::size_t side = violated.contains(point) ? 0 : 1;
     people[side] += 1.0;
-    const bool fits = by_path ? cache_->behaviours().answer(test.demo, cell) == answer
+    const bool fits = by_path ? cache_->behaviours().answer(test.start, cell) == answer
                               : std::all_of(verdict.half_spaces.begin(), verdict.half_spaces.end(),
                                             [&, &weights = point](const HalfSpace& h) { return h.contains(weights); });
     given[side] += fits ? 1.0 : 0.0;
@@ -329,7 +329,7 @@ std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& tes
 std::string Auditor::answer_in_words(const Test& test, const Answer& answer, const Verdict& verdict) const {
   const auto& atlas = cache_->atlas();
   const auto& domain = atlas.domain();
-  const auto& robot = atlas.feature_counts(test.demo);
+  const auto& robot = atlas.feature_counts(test.start);
   const bool can_be_compared =
       domain.is_exact() && *answer != robot && sign_of_dot(domain.weights().integer, robot - *answer) >= 0;
   if (can_be_compared) return prediction_in_words(domain, *answer, robot);
@@ -346,7 +346,7 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   auto& behaviours = cache_->behaviours();
   std::vector<StartIndex> shown;
   for (const auto& period : periods) {
-    for (const auto& demonstration : period.demonstrations) shown.push_back(demonstration.demo);
+    for (const auto& demonstration : period.demonstrations) shown.push_back(demonstration.start);
   }
   std::vector<PolicyCellIndex> people;
   for (const auto& weights : bank.violators(misconception.misbelief.violated, kPeople)) {
@@ -361,8 +361,8 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   for (const auto c : lessons.start_classes) {
     const auto set = conveyed.set(c);
     if (!set.contains(wanted)) continue;
-    for (const auto demo : atlas.members(c)) {
-      simplest.offer(demo, std::find(shown.begin(), shown.end(), demo) == shown.end(), set.count());
+    for (const auto start : atlas.members(c)) {
+      simplest.offer(start, std::find(shown.begin(), shown.end(), start) == shown.end(), set.count());
     }
   }
   misconception.show = simplest.best();
@@ -376,8 +376,8 @@ std::optional<StartIndex> Auditor::choose_test(const MisconceptionBank& bank, co
   const auto& atlas = cache_->atlas();
   std::vector<StartIndex> known;
   for (const auto& period : periods) {
-    for (const auto& test : period.tests) known.push_back(test.demo);
-    for (const auto& demonstration : period.demonstrations) known.push_back(demonstration.demo);
+    for (const auto& test : period.tests) known.push_back(test.start);
+    for (const auto& demonstration : period.demonstrations) known.push_back(demonstration.start);
   }
   const bool is_wrong = audit.understanding == Understanding::kMisconception;
   if (is_wrong && audit.misconception->show) known.push_back(*audit.misconception->show);
@@ -392,9 +392,9 @@ std::optional<StartIndex> Auditor::choose_test(const MisconceptionBank& bank, co
     const auto number = atlas.constraints().find(constraint);
     if (!number) continue;
     Simplest simplest{atlas};
-    for (const auto demo : atlas.tests_for(*number)) {
-      simplest.offer(demo, std::find(known.begin(), known.end(), demo) == known.end(),
-                     atlas.tested_constraints(demo).count());
+    for (const auto start : atlas.tests_for(*number)) {
+      simplest.offer(start, std::find(known.begin(), known.end(), start) == known.end(),
+                     atlas.tested_constraints(start).count());
     }
     if (const auto best = simplest.best()) return best;
   }

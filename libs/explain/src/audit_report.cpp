@@ -219,12 +219,12 @@ std::string advice_in_words(const ComponentAudit& audit) {
 
 namespace {
 
-Json start_json(const Atlas& atlas, std::optional<StartIndex> demo, bool has_path) {
-  if (!demo) return nullptr;
-  auto json = board_json(atlas.domain(), atlas.id(*demo));
-  if (has_path) json.update(path_json(atlas.domain(), atlas.id(*demo).mdp, atlas.trajectory(*demo)));
-  json["mdp"] = atlas.id(*demo).mdp.value();
-  json["start_state"] = atlas.id(*demo).start.value();
+Json start_json(const Atlas& atlas, std::optional<StartIndex> start, bool has_path) {
+  if (!start) return nullptr;
+  auto json = board_json(atlas.domain(), atlas.id(*start));
+  if (has_path) json.update(path_json(atlas.domain(), atlas.id(*start).mdp, atlas.trajectory(*start)));
+  json["mdp"] = atlas.id(*start).mdp.value();
+  json["start_state"] = atlas.id(*start).start.value();
   return json;
 }
 
@@ -232,7 +232,7 @@ Json misconception_json(const Atlas& atlas, const LikelyMisconception& misconcep
   const auto& domain = atlas.domain();
   Json answers = Json::array();
   for (const auto& answer : misconception.answers) {
-    const auto id = atlas.id(answer.demo);
+    const auto id = atlas.id(answer.start);
     answers.push_back({{"period", answer.period},
                        {"test", answer.test},
                        {"mdp", id.mdp.value()},

@@ -17,12 +17,12 @@ namespace kith {
 namespace {
 
 // Weights under which exactly the paths with these feature counts are best.
-IntegerVector weights_that_choose(const Atlas& atlas, StartIndex demo, const IntegerVector& vertex) {
-  const auto vertices = atlas.tables().coverage_set(demo);
-  if (vertex == atlas.feature_counts(demo) || std::find(vertices.begin(), vertices.end(), vertex) == vertices.end()) {
+IntegerVector weights_that_choose(const Atlas& atlas, StartIndex start, const IntegerVector& vertex) {
+  const auto vertices = atlas.tables().coverage_set(start);
+  if (vertex == atlas.feature_counts(start) || std::find(vertices.begin(), vertices.end(), vertex) == vertices.end()) {
     throw std::invalid_argument{"contrast_with: the vertex is none of the coverage set, or the robot's own"};
   }
-  Cone cone = atlas.tables().finite_region(demo);
+  Cone cone = atlas.tables().finite_region(start);
   for (const auto& other : vertices) {
     if (other == vertex) continue;
     const bool has_interior = cone.clip(constraint_of(vertex, other));
@@ -35,10 +35,10 @@ Int128 squared_length(const IntegerVector& v) { return dot(v, v); }
 
 }  // namespace
 
-Contrast contrast_with(const Atlas& atlas, StartIndex demo, std::size_t from, const IntegerVector& vertex) {
-  const auto robot = atlas.trajectory(demo);
+Contrast contrast_with(const Atlas& atlas, StartIndex start, std::size_t from, const IntegerVector& vertex) {
+  const auto robot = atlas.trajectory(start);
   if (from >= robot.actions.size()) throw std::invalid_argument{"contrast_with: the path is shorter"};
-  const auto world = atlas.id(demo).mdp;
+  const auto world = atlas.id(start).mdp;
   const auto& mdp = atlas.domain().mdp(world);
   const auto here = atlas.index({world, robot.states[from]});
   const auto weights = weights_that_choose(atlas, here, vertex);
@@ -56,7 +56,7 @@ Contrast contrast_with(const Atlas& atlas, StartIndex demo, std::size_t from, co
     ++t;
   }
   auto rest = canonical_trajectory(mdp, solution.canonical_choice, robot.states[t]);
-  return detail::beside(atlas, demo, {from, vertex, t, std::move(rest)});
+  return detail::beside(atlas, start, {from, vertex, t, std::move(rest)});
 }
 
 std::optional<HalfSpace> conveyed_by(const Domain& domain, const Contrast& contrast) {
@@ -105,7 +105,7 @@ std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const
   if (domain.is_exact()) return reason(domain, contrast.robot_counts, contrast.alternative_counts);
   const auto conveyed = conveyed_by(domain, contrast);
   if (!conveyed) throw std::invalid_argument{"reason: both paths are worth the same"};
-  const auto world = atlas.id(contrast.demo).mdp;
+  const auto world = atlas.id(contrast.start).mdp;
   const auto fact = told(domain, *conveyed, together);
   if (is_exact(domain.mdp(world))) {
     return explained(choice_in_words(domain, whole_counts(domain, contrast.robot_counts),
@@ -131,8 +131,8 @@ bool is_detour(const Domain& domain, const Contrast& contrast) {
 namespace {
 
 // With the path of somebody, as the coverage sets know them.
-std::optional<Contrast> vertex_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
-  const auto path = atlas.path(demo);
+std::optional<Contrast> vertex_for(const Atlas& atlas, StartIndex start, const HalfSpace& constraint) {
+  const auto path = atlas.path(start);
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto& robot = atlas.feature_counts(path[t]);
     std::optional<IntegerVector> nearest;
@@ -140,14 +140,14 @@ std::optional<Contrast> vertex_for(const Atlas& atlas, StartIndex demo, const Ha
       if (vertex == robot || constraint_of(robot, vertex) != constraint) continue;
       if (!nearest || squared_length(robot - vertex) < squared_length(robot - *nearest)) nearest = vertex;
     }
-    if (nearest) return contrast_with(atlas, demo, t, *nearest);
+    if (nearest) return contrast_with(atlas, start, t, *nearest);
   }
   return std::nullopt;
 }
 
 // With one other action.
-std::optional<Contrast> deviation_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
-  const auto path = atlas.path(demo);
+std::optional<Contrast> deviation_for(const Atlas& atlas, StartIndex start, const HalfSpace& constraint) {
+  const auto path = atlas.path(start);
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto [world, s] = atlas.id(path[t]);
     const auto choices = atlas.domain().mdp(world).choices(s);
@@ -160,15 +160,15 @@ std::optional<Contrast> deviation_for(const Atlas& atlas, StartIndex demo, const
       nearest = c;
       least = loss;
     }
-    if (nearest) return detail::deviation(atlas, demo, t, choices[*nearest].action);
+    if (nearest) return detail::deviation(atlas, start, t, choices[*nearest].action);
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Contrast> contrast_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
-  return atlas.find_tables() ? vertex_for(atlas, demo, constraint) : deviation_for(atlas, demo, constraint);
+std::optional<Contrast> contrast_for(const Atlas& atlas, StartIndex start, const HalfSpace& constraint) {
+  return atlas.find_tables() ? vertex_for(atlas, start, constraint) : deviation_for(atlas, start, constraint);
 }
 
 namespace {
@@ -189,11 +189,11 @@ std::size_t steps_together(const Mdp& mdp, const Trajectory& robot, std::size_t 
 }
 
 // Beside the path that somebody with the given weights expects from step `from` on.
-std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, StartIndex demo, std::size_t from,
+std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, StartIndex start, std::size_t from,
                                              const Direction& weights, const IntegerVector& answer) {
   const Atlas& atlas = behaviours.atlas();
-  const auto world = atlas.id(demo).mdp;
-  const auto path = atlas.trajectory(demo);
+  const auto world = atlas.id(start).mdp;
+  const auto path = atlas.trajectory(start);
   auto t = from;
   if (atlas.domain().is_exact()) {
     t = steps_together(atlas.domain().mdp(world), path, from,
@@ -201,7 +201,7 @@ std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, Start
   }
   auto rest = behaviours.trajectory(atlas.index({world, path.states[t]}), weights);
   if (!rest) return std::nullopt;
-  auto result = detail::beside(atlas, demo, {from, answer, t, *std::move(rest)});
+  auto result = detail::beside(atlas, start, {from, answer, t, *std::move(rest)});
   // Where chance has a part the likeliest paths may be the same: then it is the state that tells.
   const auto parting = first_difference(result.robot, result.alternative);
   const bool differ = parting && (result.robot.repeats_from || *parting < result.robot.actions.size());
@@ -214,23 +214,23 @@ std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, Start
 
 }  // namespace
 
-std::optional<Contrast> contrast_for(Behaviours& behaviours, StartIndex demo, const HalfSpace& constraint,
+std::optional<Contrast> contrast_for(Behaviours& behaviours, StartIndex start, const HalfSpace& constraint,
                                      std::span<const PolicyCellIndex> people) {
   const Atlas& atlas = behaviours.atlas();
-  if (atlas.find_tables()) return contrast_for(atlas, demo, constraint);
+  if (atlas.find_tables()) return contrast_for(atlas, start, constraint);
   std::size_t from = 0;
-  for (const StartIndex here : atlas.path(demo)) {
+  for (const StartIndex here : atlas.path(start)) {
     for (const PolicyCellIndex person : people) {
       const auto answer = behaviours.answer(here, person);
       if (!answer) continue;
       const auto conveyed = preference_of_robot(atlas.domain(), atlas.feature_counts(here) - *answer);
       if (conveyed != constraint) continue;
-      if (auto contrast = contrast_with_person(behaviours, demo, from, behaviours.weights(person), *answer))
+      if (auto contrast = contrast_with_person(behaviours, start, from, behaviours.weights(person), *answer))
         return contrast;
     }
     ++from;
   }
-  return deviation_for(atlas, demo, constraint);
+  return deviation_for(atlas, start, constraint);
 }
 
 }  // namespace kith

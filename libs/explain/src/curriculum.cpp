@@ -101,7 +101,7 @@ class CurriculumMaker {
   void answer_right(Session& session, const std::vector<Test>& tests) const {
     std::vector<Answer> answers;
     answers.reserve(tests.size());
-    for (const auto& test : tests) answers.emplace_back(atlas_.feature_counts(test.demo));
+    for (const auto& test : tests) answers.emplace_back(atlas_.feature_counts(test.start));
     const std::vector<std::vector<Answer>> all{answers};
     static_cast<void>(session.submit(all));
   }
@@ -133,12 +133,12 @@ class CurriculumMaker {
     auto conveys = news(without(shown.half_spaces, atlas_.domain().prior()));
     KITH_ASSERT(!conveys.empty());  // else it would have had no gain
     const auto main = most_telling(conveys, known);
-    auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, cells_of(shown.counterfactuals));
+    auto contrast = contrast_for(cache_.behaviours(), shown.start, main, cells_of(shown.counterfactuals));
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
     auto sentence = reason(atlas_, *contrast, conveys);
     auto flip = nearest_flip(atlas_, *contrast);
-    return {shown.demo,      std::move(conveys),    main, *std::move(contrast), std::move(sentence),
-            std::move(flip), runs_from(shown.demo), {}};
+    return {shown.start,     std::move(conveys),     main, *std::move(contrast), std::move(sentence),
+            std::move(flip), runs_from(shown.start), {}};
   }
 
   // What people do not know of the robot as it was before.
@@ -147,9 +147,9 @@ class CurriculumMaker {
     return constraints;
   }
 
-  [[nodiscard]] std::vector<PolicyRun> runs_from(StartIndex demo) const {
-    auto random = RandomStream{options_.seed}.split("runs").split(demo.value());
-    return several_runs(atlas_, demo, options_.runs, random);
+  [[nodiscard]] std::vector<PolicyRun> runs_from(StartIndex start) const {
+    auto random = RandomStream{options_.seed}.split("runs").split(start.value());
+    return several_runs(atlas_, start, options_.runs, random);
   }
 
   // In the order of the tables, where there are some.
@@ -190,14 +190,14 @@ class CurriculumMaker {
     constexpr double kEasy = 2.0 / 3.0;
     constexpr double kHard = 1.0 / 3.0;
     const auto right = std::count_if(points.begin(), points.end(), [&](PolicyCellIndex cell) {
-      const auto answer = cache_.behaviours().answer(test.demo, cell);
-      return answer && judge_path(atlas_.domain(), atlas_.feature_counts(test.demo), *answer).is_right;
+      const auto answer = cache_.behaviours().answer(test.start, cell);
+      return answer && judge_path(atlas_.domain(), atlas_.feature_counts(test.start), *answer).is_right;
     });
     const auto share = static_cast<double>(right) / static_cast<double>(points.size());
     const auto difficulty = share >= kEasy  ? Difficulty::kEasy
                             : share < kHard ? Difficulty::kHard
                                             : Difficulty::kMedium;
-    return {test.demo, test.covered, test.is_shortest_wrong, share, difficulty, runs_from(test.demo)};
+    return {test.start, test.covered, test.is_shortest_wrong, share, difficulty, runs_from(test.start)};
   }
 
   // Of some starts in worlds that were neither shown nor tested, those about which most can be wrong; each in a world
@@ -206,13 +206,13 @@ class CurriculumMaker {
     constexpr std::size_t kTried = 60, kTriedWithoutTables = 6;
     std::vector<bool> is_seen(atlas_.domain().num_mdps(), false);
     for (const auto& component : curriculum_.components) {
-      for (const auto& shown : component.demonstrations) is_seen[atlas_.id(shown.demo).mdp.value()] = true;
-      for (const auto& test : component.tests) is_seen[atlas_.id(test.demo).mdp.value()] = true;
+      for (const auto& shown : component.demonstrations) is_seen[atlas_.id(shown.start).mdp.value()] = true;
+      for (const auto& test : component.tests) is_seen[atlas_.id(test.start).mdp.value()] = true;
     }
 
     std::vector<StartIndex> starts;
-    for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
-      if (atlas_.is_candidate(demo) && !is_seen[atlas_.id(demo).mdp.value()]) starts.push_back(demo);
+    for (StartIndex start{0}; start.value() < atlas_.num_states(); ++start) {
+      if (atlas_.is_candidate(start) && !is_seen[atlas_.id(start).mdp.value()]) starts.push_back(start);
     }
 
     auto random = RandomStream{options_.seed}.split("fresh");
@@ -226,7 +226,7 @@ class CurriculumMaker {
     std::ranges::stable_sort(tried, {}, [](const CurriculumTest& test) { return std::abs(test.share_right - 0.5); });
 
     for (auto& test : tried) {
-      const auto world = atlas_.id(test.demo).mdp.value();
+      const auto world = atlas_.id(test.start).mdp.value();
       if (curriculum_.fresh.size() == options_.fresh || is_seen[world] || test.share_right == 1.0) continue;
       is_seen[world] = true;
       curriculum_.fresh.push_back(std::move(test));
@@ -251,11 +251,11 @@ class CurriculumMaker {
 
   [[nodiscard]] std::optional<StartIndex> simplest_endless() const {
     std::optional<StartIndex> simplest;
-    for (StartIndex demo{0}; demo.value() < atlas_.num_states(); ++demo) {
-      const auto& mdp = atlas_.domain().mdp(atlas_.id(demo).mdp);
-      if (!atlas_.is_candidate(demo) || !mdp.is_deterministic() || mdp.discount() == 1.0) continue;
-      if (simplest && atlas_.complexity(*simplest) <= atlas_.complexity(demo)) continue;
-      if (atlas_.trajectory(demo).repeats_from) simplest = demo;
+    for (StartIndex start{0}; start.value() < atlas_.num_states(); ++start) {
+      const auto& mdp = atlas_.domain().mdp(atlas_.id(start).mdp);
+      if (!atlas_.is_candidate(start) || !mdp.is_deterministic() || mdp.discount() == 1.0) continue;
+      if (simplest && atlas_.complexity(*simplest) <= atlas_.complexity(start)) continue;
+      if (atlas_.trajectory(start).repeats_from) simplest = start;
     }
     return simplest;
   }

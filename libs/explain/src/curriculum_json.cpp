@@ -17,9 +17,9 @@ class Tables {
   explicit Tables(const Atlas& atlas) : atlas_{atlas} {}
 
   // A board on which somebody drives the robot, and what the robot's own path counts.
-  void add_start(Json& json, StartIndex demo) {
-    const auto id = atlas_.id(demo);
-    const auto& counts = atlas_.feature_counts(demo);
+  void add_start(Json& json, StartIndex start_index) {
+    const auto id = atlas_.id(start_index);
+    const auto& counts = atlas_.feature_counts(start_index);
     json["state"] = id.start.value();
     json["counts"] = std::vector<std::int64_t>(counts.begin(), counts.end());
     const auto key = std::to_string(id.mdp.value());
@@ -80,10 +80,10 @@ class Tables {
 
 Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown, Tables& tables) {
   const auto& domain = atlas.domain();
-  const auto world = atlas.id(shown.demo).mdp;
-  auto json = board_json(domain, atlas.id(shown.demo));
+  const auto world = atlas.id(shown.start).mdp;
+  auto json = board_json(domain, atlas.id(shown.start));
   json.update(path_json(domain, world, shown.contrast.robot));
-  tables.add_start(json, shown.demo);
+  tables.add_start(json, shown.start);
   json["reason"] = shown.reason;
   json["brackets"] = brackets_json(domain, shown.brackets);
   json["conveys"] = sentences_json(domain, shown.conveys);
@@ -92,7 +92,7 @@ Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown
   json["runs"] = runs_json(domain, world, shown.runs);
   json["flip"] = nullptr;
   if (shown.flip) {
-    const auto id = atlas.id(shown.flip->demo);
+    const auto id = atlas.id(shown.flip->start);
     json["flip"] = board_json(domain, id);
     json["flip"].update(path_json(domain, id.mdp, shown.flip->robot));
     json["flip"]["text"] = flip_in_words(atlas, shown.contrast, *shown.flip);
@@ -101,10 +101,10 @@ Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown
 }
 
 Json test_json(const Atlas& atlas, const CurriculumTest& test, Tables& tables) {
-  const auto id = atlas.id(test.demo);
+  const auto id = atlas.id(test.start);
   auto json = board_json(atlas.domain(), id);
-  json.update(path_json(atlas.domain(), id.mdp, atlas.trajectory(test.demo)));
-  tables.add_start(json, test.demo);
+  json.update(path_json(atlas.domain(), id.mdp, atlas.trajectory(test.start)));
+  tables.add_start(json, test.start);
   json["runs"] = runs_json(atlas.domain(), id.mdp, test.runs);
   json["difficulty"] = name_of(test.difficulty);
   json["share_right"] = test.share_right;

@@ -20,23 +20,23 @@ Trajectory first_steps(const Trajectory& path, std::size_t n) {
 
 }  // namespace
 
-Contrast beside(const Atlas& atlas, StartIndex demo, const Departure& other) {
+Contrast beside(const Atlas& atlas, StartIndex start, const Departure& other) {
   Contrast result;
-  result.demo = demo;
-  result.robot = atlas.trajectory(demo);
-  result.robot_counts = atlas.feature_counts(demo);
+  result.start = start;
+  result.robot = atlas.trajectory(start);
+  result.robot_counts = atlas.feature_counts(start);
   result.decisive = other.step;
   result.alternative = first_steps(result.robot, other.step);
   append(result.alternative, other.rest);
-  const auto there = atlas.index({atlas.id(demo).mdp, result.robot.states.at(other.expected_from)});
+  const auto there = atlas.index({atlas.id(start).mdp, result.robot.states.at(other.expected_from)});
   result.alternative_counts = result.robot_counts - atlas.feature_counts(there) + other.counts;
   return result;
 }
 
-std::optional<Contrast> deviation(const Atlas& atlas, StartIndex demo, std::size_t at, ActionIndex action) {
-  const auto world = atlas.id(demo).mdp;
+std::optional<Contrast> deviation(const Atlas& atlas, StartIndex start, std::size_t at, ActionIndex action) {
+  const auto world = atlas.id(start).mdp;
   const auto& mdp = atlas.domain().mdp(world);
-  const auto s = atlas.trajectory(demo).states.at(at);
+  const auto s = atlas.trajectory(start).states.at(at);
   const auto choices = mdp.choices(s);
   const auto choice = std::ranges::find(choices, action, &Choice::action);
   if (choice == choices.end()) return std::nullopt;
@@ -45,7 +45,7 @@ std::optional<Contrast> deviation(const Atlas& atlas, StartIndex demo, std::size
   Trajectory rest{{s, next}, {action}};
   if (!mdp.is_terminal(next)) append(rest, atlas.trajectory(atlas.index({world, next})));
   auto counts = atlas.deviation_counts(atlas.index({world, s}), static_cast<std::size_t>(choice - choices.begin()));
-  return beside(atlas, demo, {at, counts, at, std::move(rest)});
+  return beside(atlas, start, {at, counts, at, std::move(rest)});
 }
 
 }  // namespace kith::detail

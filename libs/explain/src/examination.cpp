@@ -46,8 +46,8 @@ Examination::Examination(TeachingCache& cache, const AuditOptions& options, std:
 
 void Examination::observe(const ObservedPeriod& period) {
   bank_.observe(cache_->atlas(), period);
-  for (const auto& shown : period.demonstrations) chooser_.leave_out(shown.demo);
-  for (const auto& test : period.tests) chooser_.leave_out(test.demo);
+  for (const auto& shown : period.demonstrations) chooser_.leave_out(shown.start);
+  for (const auto& test : period.tests) chooser_.leave_out(test.start);
   num_boards_ += period.is_exam() ? 1u : 0u;
 }
 

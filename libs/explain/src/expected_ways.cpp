@@ -7,13 +7,13 @@
 
 namespace kith {
 
-std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, StartIndex demo, std::size_t n) {
+std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, StartIndex start, std::size_t n) {
   const Eigen::MatrixXd people = cover(behaviours.atlas().prior_cone(), n, behaviours.atlas().feature_order());
   std::map<IntegerVector, ExpectedWay> by_counts;
   double all = 0.0;
   for (Eigen::Index i = 0; i < people.cols(); ++i) {
     const Direction weights = people.col(i);
-    const auto counts = behaviours.answer(demo, behaviours.locate(weights));
+    const auto counts = behaviours.answer(start, behaviours.locate(weights));
     if (!counts) continue;
     by_counts.try_emplace(*counts, ExpectedWay{*counts, weights, 0.0}).first->second.share += 1.0;
     all += 1.0;

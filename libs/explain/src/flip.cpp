@@ -7,11 +7,11 @@
 
 namespace kith {
 
-std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex demo, MdpIndex world) {
+std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex start_index, MdpIndex world) {
   const auto& domain = atlas.domain();
   const auto map = domain.map();
   if (!map) return std::nullopt;
-  const auto [from, start] = atlas.id(demo);
+  const auto [from, start] = atlas.id(start_index);
   const auto before = map->state(from, start);
   const auto fresh_there = map->state(world, domain.initial_state(world));
   const auto fresh_here = map->state(from, domain.initial_state(from));
@@ -86,7 +86,7 @@ std::string doing_instead(const std::string& action) {
 std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
   const auto& domain = atlas.domain();
   if (!domain.map() || !domain.is_exact()) return std::nullopt;  // without a map nothing says which worlds are alike
-  const auto here = atlas.id(contrast.demo).mdp;
+  const auto here = atlas.id(contrast.start).mdp;
   const auto groups = domain.optional_groups();
   struct Candidate {
     std::size_t num_groups, num_cells, world;
@@ -103,7 +103,7 @@ std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
   std::sort(candidates.begin(), candidates.end());
   for (const auto& candidate : candidates) {
     const MdpIndex world{candidate.world};
-    const auto start = same_start(atlas, contrast.demo, world);
+    const auto start = same_start(atlas, contrast.start, world);
     if (!start) continue;
     if (auto path = flipped_path(atlas, contrast, *start)) {
       return Flip{*start, *std::move(path), toggled_groups(domain, here, world)};
@@ -137,7 +137,7 @@ std::string difference_in_words(const Domain& domain, MdpIndex world, std::span<
 
 std::string flip_in_words(const Atlas& atlas, const Contrast& contrast, const Flip& flip) {
   const auto& domain = atlas.domain();
-  const auto [world, start] = atlas.id(flip.demo);
+  const auto [world, start] = atlas.id(flip.start);
   const auto& names = domain.action_names();
   const auto map = domain.map().value();  // otherwise nothing flips
   const auto cell = map.state(world, flip.robot.states[contrast.decisive]).robot;

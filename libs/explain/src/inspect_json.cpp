@@ -9,15 +9,15 @@
 namespace kith {
 namespace {
 
-Json start_to_json(const Atlas& atlas, StartIndex demo) {
+Json start_to_json(const Atlas& atlas, StartIndex start) {
   const auto& domain = atlas.domain();
-  const auto& counts = atlas.feature_counts(demo);
-  Json json{{"start", start_to_json(domain, atlas.id(demo))}};
-  json.update(actions_json(domain, atlas.trajectory(demo)));
+  const auto& counts = atlas.feature_counts(start);
+  Json json{{"start", start_to_json(domain, atlas.id(start))}};
+  json.update(actions_json(domain, atlas.trajectory(start)));
   json["features"] = counts_to_json(domain, counts);
   json["return"] = return_of(domain, counts);
-  json["one_step"] = to_json(atlas.constraints().half_spaces(atlas.one_step(demo)), domain.num_features());
-  json["unique"] = atlas.is_unique(demo);
+  json["one_step"] = to_json(atlas.constraints().half_spaces(atlas.one_step(start)), domain.num_features());
+  json["unique"] = atlas.is_unique(start);
   return json;
 }
 
@@ -94,9 +94,9 @@ Json inspection_json(const Atlas& atlas, const InspectionContent& content) {
   if (content.demos) {
     Json demos = Json::array();
     for (std::size_t i = 0; i < atlas.num_states(); ++i) {
-      const StartIndex demo{i};
-      if (!atlas.is_candidate(demo)) continue;
-      if (!content.mdp || atlas.id(demo).mdp.value() == *content.mdp) demos.push_back(start_to_json(atlas, demo));
+      const StartIndex start{i};
+      if (!atlas.is_candidate(start)) continue;
+      if (!content.mdp || atlas.id(start).mdp.value() == *content.mdp) demos.push_back(start_to_json(atlas, start));
     }
     document["demos"] = std::move(demos);
   }

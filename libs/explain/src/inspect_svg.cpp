@@ -167,9 +167,9 @@ std::string path_caption(const Domain& domain, MdpIndex m, const std::string& te
 SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   constexpr std::size_t kMost = 11;
   const auto& domain = atlas.domain();
-  const auto demo = atlas.index({m, domain.initial_state(m)});
+  const auto start_index = atlas.index({m, domain.initial_state(m)});
   const auto start = map.state(m, domain.initial_state(m));
-  const auto& robot = atlas.feature_counts(demo);
+  const auto& robot = atlas.feature_counts(start_index);
 
   Sheet sheet{boards,
               fmt::format("What people could expect from the start of {} of {}", world_text(domain, m), domain.id())};
@@ -179,11 +179,11 @@ SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& b
     sheet.add(std::move(board), path_caption(domain, m, text, path));
   };
 
-  add(atlas.trajectory(demo), "the robot's own: " + counts_text(domain, robot), true);
+  add(atlas.trajectory(start_index), "the robot's own: " + counts_text(domain, robot), true);
   Behaviours behaviours{atlas};
   std::size_t shown = 0;
-  for (const auto& way : expected_ways(behaviours, demo)) {
-    const auto path = behaviours.trajectory(demo, way.weights);
+  for (const auto& way : expected_ways(behaviours, start_index)) {
+    const auto path = behaviours.trajectory(start_index, way.weights);
     if (way.counts == robot || !path || ++shown > kMost) continue;
     const auto told = preference_of_robot(domain, robot - way.counts);
     const auto sentence = told ? in_words(domain, *told) : std::string{};
@@ -197,17 +197,17 @@ SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& b
 
 SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& domain = atlas.domain();
-  const auto demo = atlas.index({m, domain.initial_state(m)});
+  const auto start_index = atlas.index({m, domain.initial_state(m)});
   const auto start = map.state(m, domain.initial_state(m));
   Sheet sheet{boards,
               fmt::format("What people could expect from the start of {} of {}", world_text(domain, m), domain.id())};
-  const auto& robot = atlas.feature_counts(demo);
+  const auto& robot = atlas.feature_counts(start_index);
   auto own = boards.board(m, start);
-  own.add(0, 0, boards.path(m, atlas.trajectory(demo), "#0b5cad"));
+  own.add(0, 0, boards.path(m, atlas.trajectory(start_index), "#0b5cad"));
   sheet.add(std::move(own), "the robot's own: " + counts_text(domain, robot));
-  for (const auto& vertex : atlas.tables().coverage_set(demo)) {
+  for (const auto& vertex : atlas.tables().coverage_set(start_index)) {
     if (vertex == robot) continue;
-    const auto contrast = contrast_with(atlas, demo, 0, vertex);
+    const auto contrast = contrast_with(atlas, start_index, 0, vertex);
     auto board = boards.board(m, start);
     board.add(0, 0, boards.path(m, contrast.alternative, "#b8480a", true));
     sheet.add(std::move(board),

@@ -209,9 +209,9 @@ Json expectations_json(const Atlas& atlas, MdpIndex world) {
   const auto& mdp = atlas.domain().mdp(world);
   Json robot = Json::array(), ahead = Json::array();
   for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-    const auto demo = atlas.index({world, s});
-    robot.push_back(atlas.action(demo).value());
-    const auto& counts = atlas.feature_counts(demo);
+    const auto start = atlas.index({world, s});
+    robot.push_back(atlas.action(start).value());
+    const auto& counts = atlas.feature_counts(start);
     ahead.push_back(std::vector<std::int64_t>(counts.begin(), counts.end()));
   }
   return {{"outcomes", outcomes_json(mdp)}, {"robot", robot}, {"ahead", ahead}};

@@ -51,11 +51,11 @@ bool Scene::is_asked_about(MdpIndex world) const {
   });
 }
 
-bool Scene::was_seen(StartIndex demo) const {
+bool Scene::was_seen(StartIndex start) const {
   if (!domain_.inferred()) return true;
-  const auto world = atlas_.id(demo).mdp;
+  const auto world = atlas_.id(start).mdp;
   const auto& unknown = domain_.inferred()->not_explained;
-  return std::ranges::none_of(atlas_.trajectory(demo).states, [&](StateIndex s) {
+  return std::ranges::none_of(atlas_.trajectory(start).states, [&](StateIndex s) {
     return std::binary_search(unknown.begin(), unknown.end(), StartId{world, s});
   });
 }
@@ -146,12 +146,12 @@ std::optional<std::size_t> Scene::step_of(MdpIndex world, const Trajectory& path
   return std::nullopt;
 }
 
-std::optional<Contrast> Scene::contrast_to(StartIndex demo, const Happening& happening, bool happens) const {
-  const auto id = atlas_.id(demo);
+std::optional<Contrast> Scene::contrast_to(StartIndex start_index, const Happening& happening, bool happens) const {
+  const auto id = atlas_.id(start_index);
   const auto world = id.mdp;  // no structured binding, which clang 14 does not let a lambda capture
   const auto start = id.start;
   if (question_.is_about_a_step()) {
-    return best_deviation(atlas_, demo, 0, 1, [&](const Contrast& other) {
+    return best_deviation(atlas_, start_index, 0, 1, [&](const Contrast& other) {
       return is_at(world, start, other.alternative.actions.front(), happening) == happens;
     });
   }
@@ -170,20 +170,20 @@ std::optional<Contrast> Scene::contrast_to(StartIndex demo, const Happening& hap
            (happens ? there >= 2 * robot && kOnceIn * there >= domain_.count_scale() : 2 * there <= robot);
   };
   if (!domain_.is_exact() && !happening.action) {
-    if (auto best = best_way(demo, is_clear)) return best;
+    if (auto best = best_way(start_index, is_clear)) return best;
   }
-  if (auto best = best_way(demo, admits)) return best;
+  if (auto best = best_way(start_index, admits)) return best;
   if (!happening.action) {
-    if (auto best = way_of_others(demo, happening, happens)) return best;
+    if (auto best = way_of_others(start_index, happening, happens)) return best;
   }
-  return any_best_way(demo, admits);
+  return any_best_way(start_index, admits);
 }
 
-std::optional<double> Scene::chance_of(StartIndex demo, const Happening& happening) const {
+std::optional<double> Scene::chance_of(StartIndex start, const Happening& happening) const {
   constexpr std::size_t kMostStates = 20'000;
   constexpr std::size_t kMostSweeps = 10'000;
   constexpr double kAccuracy = 1e-9;
-  const auto world = atlas_.id(demo).mdp;
+  const auto world = atlas_.id(start).mdp;
   const auto& mdp = domain_.mdp(world);
   // What the robot does in each state that it can reach.
   struct Visit {
@@ -191,7 +191,7 @@ std::optional<double> Scene::chance_of(StartIndex demo, const Happening& happeni
     double chance = 0.0;
   };
   std::map<StateIndex, Visit> visits;
-  std::vector<StateIndex> open{atlas_.id(demo).start};
+  std::vector<StateIndex> open{atlas_.id(start).start};
   while (!open.empty()) {
     const auto s = open.back();
     open.pop_back();
@@ -220,7 +220,7 @@ std::optional<double> Scene::chance_of(StartIndex demo, const Happening& happeni
       visit.chance = chance;
     }
   }
-  return visits.at(atlas_.id(demo).start).chance;
+  return visits.at(atlas_.id(start).start).chance;
 }
 
 namespace {
@@ -239,21 +239,21 @@ std::vector<double> other_weights(double own, bool more) {
 
 }  // namespace
 
-std::optional<Contrast> Scene::way_of_others(StartIndex demo, const Happening& happening, bool happens) const {
+std::optional<Contrast> Scene::way_of_others(StartIndex start, const Happening& happening, bool happens) const {
   if (atlas_.find_tables() || !domain_.is_exact()) return std::nullopt;
   const Behaviours behaviours{atlas_};
-  const auto world = atlas_.id(demo).mdp;
+  const auto world = atlas_.id(start).mdp;
   const auto& mdp = domain_.mdp(world);
   const auto k = happening.feature;
   for (const double weight : other_weights(domain_.weights().unit[static_cast<Eigen::Index>(k)], happens)) {
     Direction weights = domain_.weights().unit;
     weights[static_cast<Eigen::Index>(k)] = weight;
-    auto path = behaviours.trajectory(demo, weights.normalized());
+    auto path = behaviours.trajectory(start, weights.normalized());
     if (!path || !mdp.is_terminal(path->states.back())) return std::nullopt;  // beyond here they would never end
     Contrast result;
-    result.demo = demo;
-    result.robot = atlas_.trajectory(demo);
-    result.robot_counts = atlas_.feature_counts(demo);
+    result.start = start;
+    result.robot = atlas_.trajectory(start);
+    result.robot_counts = atlas_.feature_counts(start);
     result.alternative_counts = IntegerVector(domain_.num_features());
     for (std::size_t t = 0; t < path->actions.size(); ++t) {
       result.alternative_counts += mdp.integer_features(*step_by(mdp, path->states[t], path->actions[t]));
@@ -275,23 +275,23 @@ std::string Scene::spot_text(MdpIndex world, StateIndex s) const {
               : "in state '" + domain_.state_name(world, s) + "'";
 }
 
-std::string Scene::place_text(StartIndex demo) const {
-  const auto [world, start] = atlas_.id(demo);
+std::string Scene::place_text(StartIndex start_index) const {
+  const auto [world, start] = atlas_.id(start_index);
   return spot_text(world, start) + " in " + name_of(world);
 }
 
-void Scene::check_possible(StartIndex demo, const Happening& happening) const {
-  const auto [world, start] = atlas_.id(demo);
+void Scene::check_possible(StartIndex start_index, const Happening& happening) const {
+  const auto [world, start] = atlas_.id(start_index);
   for (const auto& choice : domain_.mdp(world).choices(start)) {
     if (is_at(world, start, choice.action, happening)) return;
   }
-  fail(text_, happening.place, "E1107", name_of(happening) + " is not possible " + place_text(demo),
+  fail(text_, happening.place, "E1107", name_of(happening) + " is not possible " + place_text(start_index),
        "it would change nothing there, or is not allowed");
 }
 
-std::optional<Contrast> Scene::best_step(StartIndex demo) const {
-  auto best = best_deviation(atlas_, demo, 0, 1, [&](const Contrast& other) { return !is_detour(domain_, other); });
-  return best ? best : best_deviation(atlas_, demo, 0, 1, [](const Contrast&) { return true; });
+std::optional<Contrast> Scene::best_step(StartIndex start) const {
+  auto best = best_deviation(atlas_, start, 0, 1, [&](const Contrast& other) { return !is_detour(domain_, other); });
+  return best ? best : best_deviation(atlas_, start, 0, 1, [](const Contrast&) { return true; });
 }
 
 }  // namespace kith::detail

@@ -13,8 +13,8 @@
 namespace kith {
 namespace {
 
-const ConstraintSet& set_for(const Atlas& atlas, StartIndex demo, Purpose purpose) {
-  return purpose == Purpose::kTeach ? atlas.one_step(demo) : atlas.tested_constraints(demo);
+const ConstraintSet& set_for(const Atlas& atlas, StartIndex start, Purpose purpose) {
+  return purpose == Purpose::kTeach ? atlas.one_step(start) : atlas.tested_constraints(start);
 }
 
 // The minimal set of what the constraint leaves of the prior; empty if it contradicts it.
@@ -162,11 +162,11 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
 
 bool leaves_out_ties(const Atlas& atlas) {
   const auto& domain = atlas.domain();
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo) || !atlas.has_tie(demo)) continue;
-    const auto [world, s] = atlas.id(demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start) || !atlas.has_tie(start)) continue;
+    const auto [world, s] = atlas.id(start);
     for (std::size_t c = 0; c < domain.mdp(world).choices(s).size(); ++c) {
-      const auto loss = atlas.feature_counts(demo) - atlas.deviation_counts(demo, c);
+      const auto loss = atlas.feature_counts(start) - atlas.deviation_counts(start, c);
       if (loss.is_zero() || sign_of_dot(domain.weights().integer, loss) != 0) continue;
       if (!atlas.constraints().find(HalfSpace{loss})) return true;
     }
@@ -174,9 +174,9 @@ bool leaves_out_ties(const Atlas& atlas) {
   return false;
 }
 
-bool isolates(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose) {
+bool isolates(const Atlas& atlas, StartIndex start, const HalfSpace& constraint, Purpose purpose) {
   auto region = atlas.prior_cone();
-  return region.clip(atlas.constraints().half_spaces(set_for(atlas, demo, purpose))) &&
+  return region.clip(atlas.constraints().half_spaces(set_for(atlas, start, purpose))) &&
          region.minimal_set() == target_facets(atlas.prior_cone(), constraint);
 }
 
@@ -184,11 +184,11 @@ std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace
   const auto target = target_facets(atlas.prior_cone(), constraint);
   Remainders regions{atlas};
   std::optional<std::tuple<int, std::size_t, StartIndex>> best;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo)) continue;
-    if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
-    const int complexity = atlas.complexity(demo);
-    const std::tuple candidate{complexity, atlas.trajectory(demo).actions.size(), demo};
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start)) continue;
+    if (regions.facets(set_for(atlas, start, purpose)) != target) continue;
+    const int complexity = atlas.complexity(start);
+    const std::tuple candidate{complexity, atlas.trajectory(start).actions.size(), start};
     if (!best || candidate < *best) best = candidate;
   }
   if (!best) return std::nullopt;
@@ -198,9 +198,9 @@ std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace
 NotIsolated why_not_isolated(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
   Remainders regions{atlas};
   NotIsolated why;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo)) continue;
-    const auto& facets = regions.facets(set_for(atlas, demo, purpose));
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start)) continue;
+    const auto& facets = regions.facets(set_for(atlas, start, purpose));
     auto region = atlas.prior_cone();
     if (facets.empty() || !region.clip(facets) || !region.implies(constraint)) continue;
     ++why.conveying;
@@ -209,7 +209,7 @@ NotIsolated why_not_isolated(const Atlas& atlas, const HalfSpace& constraint, Pu
       if (facet != constraint) besides.push_back(facet);
     }
     if (why.nearest && why.besides.size() <= besides.size()) continue;
-    why.nearest = demo;
+    why.nearest = start;
     why.besides = std::move(besides);
   }
   return why;
@@ -232,10 +232,10 @@ std::vector<Isolated> isolated_constraints(const Atlas& atlas) {
     if (place->second.size() != 1) return std::nullopt;
     return place->second.front();
   };
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo)) continue;
-    if (const auto taught = only_one(atlas.one_step(demo))) ++at(*taught).teaching;
-    if (const auto tested = only_one(atlas.tested_constraints(demo))) ++at(*tested).testing;
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start)) continue;
+    if (const auto taught = only_one(atlas.one_step(start))) ++at(*taught).teaching;
+    if (const auto tested = only_one(atlas.tested_constraints(start))) ++at(*tested).testing;
   }
   std::vector<Isolated> all;
   all.reserve(found.size());

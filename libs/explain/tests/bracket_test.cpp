@@ -146,7 +146,8 @@ TEST(WhileOthersStay, EndsWhereThePolicyChanges) {
     changed.replace(at, from.size(), (k == 0 ? "rubble = " : "recharge = ") + std::to_string(weight));
     const Atlas other{parse_domain(changed, "changed").domain.value()};
     std::vector<IntegerVector> counts;
-    for (StartIndex demo{0}; demo.value() < other.num_states(); ++demo) counts.push_back(other.feature_counts(demo));
+    for (StartIndex start{0}; start.value() < other.num_states(); ++start)
+      counts.push_back(other.feature_counts(start));
     return counts;
   };
   const auto own = counts_with(0, -3.0);

@@ -37,11 +37,11 @@ TEST(ContrastWith, FollowsTheRobotAsLongAsItCanAndThenEndsAsTheVertexSays) {
   for (const auto& name : testing::kSmallDomains) {
     const auto& atlas = atlas_of(name);
     for (std::size_t d = 0; d < atlas.num_states(); d += 37) {
-      const StartIndex demo{d};
-      for (const auto& vertex : atlas.tables().coverage_set(demo)) {
-        if (vertex == atlas.feature_counts(demo)) continue;
-        const auto contrast = contrast_with(atlas, demo, 0, vertex);
-        const auto world = atlas.id(demo).mdp;
+      const StartIndex start{d};
+      for (const auto& vertex : atlas.tables().coverage_set(start)) {
+        if (vertex == atlas.feature_counts(start)) continue;
+        const auto contrast = contrast_with(atlas, start, 0, vertex);
+        const auto world = atlas.id(start).mdp;
         EXPECT_EQ(counts_of(atlas.domain(), world, contrast.alternative), vertex);
         EXPECT_EQ(contrast.alternative_counts, vertex);
         EXPECT_EQ(counts_of(atlas.domain(), world, contrast.robot), contrast.robot_counts);
@@ -57,10 +57,10 @@ TEST(ContrastWith, FollowsTheRobotAsLongAsItCanAndThenEndsAsTheVertexSays) {
 
 TEST(ContrastWith, RefusesTheRobotsOwnPathAndVectorsOfNobody) {
   const auto& atlas = atlas_of("item-delivery");
-  const StartIndex demo{0};
-  EXPECT_THROW(static_cast<void>(contrast_with(atlas, demo, 0, atlas.feature_counts(demo))), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(contrast_with(atlas, demo, 0, {9, 9, 9})), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(contrast_with(atlas, demo, 999, atlas.feature_counts(demo))), std::invalid_argument);
+  const StartIndex start{0};
+  EXPECT_THROW(static_cast<void>(contrast_with(atlas, start, 0, atlas.feature_counts(start))), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(contrast_with(atlas, start, 0, {9, 9, 9})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(contrast_with(atlas, start, 999, atlas.feature_counts(start))), std::invalid_argument);
 }
 
 TEST(ContrastFor, ConveysTheConstraint) {
@@ -80,12 +80,12 @@ TEST(ContrastFor, ConveysTheConstraint) {
 
 // One other action at the decisive step, and the robot's own way before and after it.
 void expect_one_other_action(const Atlas& atlas, const Contrast& contrast) {
-  const auto world = atlas.id(contrast.demo).mdp;
+  const auto world = atlas.id(contrast.start).mdp;
   const auto& mdp = atlas.domain().mdp(world);
   const auto& states = contrast.alternative.states;
   const auto& actions = contrast.alternative.actions;
   const auto t = contrast.decisive;
-  EXPECT_EQ(contrast.robot, atlas.trajectory(contrast.demo));
+  EXPECT_EQ(contrast.robot, atlas.trajectory(contrast.start));
   ASSERT_LT(t, contrast.robot.actions.size());
   ASSERT_LT(t, actions.size());
   const auto parting = static_cast<std::ptrdiff_t>(t);
@@ -102,8 +102,8 @@ void expect_one_other_action(const Atlas& atlas, const Contrast& contrast) {
 }
 
 // The first step of the robot's path at which one other action conveys the constraint, if any.
-std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
-  const auto path = atlas.path(demo);
+std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, StartIndex start, const HalfSpace& constraint) {
+  const auto path = atlas.path(start);
   for (std::size_t t = 0; t < path.size(); ++t) {
     const auto [world, s] = atlas.id(path[t]);
     for (std::size_t c = 0; c < atlas.domain().mdp(world).choices(s).size(); ++c) {
@@ -114,18 +114,18 @@ std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, StartInde
   return std::nullopt;
 }
 
-void expect_contrast_without_tables(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint) {
+void expect_contrast_without_tables(const Atlas& atlas, StartIndex start, const HalfSpace& constraint) {
   const auto& domain = atlas.domain();
-  const auto contrast = contrast_for(atlas, demo, constraint);
+  const auto contrast = contrast_for(atlas, start, constraint);
   ASSERT_TRUE(contrast.has_value());
-  EXPECT_EQ(contrast->demo, demo);
+  EXPECT_EQ(contrast->start, start);
   EXPECT_EQ(conveyed_by(domain, *contrast), constraint);
-  EXPECT_EQ(contrast->decisive, first_step_that_conveys(atlas, demo, constraint));
+  EXPECT_EQ(contrast->decisive, first_step_that_conveys(atlas, start, constraint));
   expect_one_other_action(atlas, *contrast);
   const auto said = reason(atlas, *contrast);
   EXPECT_TRUE(said.ends_with(told(domain, constraint))) << said;
   if (!domain.is_exact()) return;
-  EXPECT_EQ(counts_of(domain, atlas.id(demo).mdp, contrast->alternative), contrast->alternative_counts);
+  EXPECT_EQ(counts_of(domain, atlas.id(start).mdp, contrast->alternative), contrast->alternative_counts);
 }
 
 // Every constraint of a demonstration, which is a comparison with one other action. Returns how many there were.
@@ -164,10 +164,10 @@ TEST(ContrastFor, IsNothingWhereNoOtherActionConveysTheConstraint) {
 TEST(ContrastFor, ComparesWithOneOtherActionWhereNobodyExpectsSuch) {
   const Atlas atlas{load_domain("item-delivery"), BehaviourSource::kOnDemand};
   Behaviours behaviours{atlas};
-  const StartIndex demo{5000};
-  for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(demo))) {
-    const auto alone = contrast_for(atlas, demo, constraint);
-    const auto contrast = contrast_for(behaviours, demo, constraint, {});
+  const StartIndex start{5000};
+  for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(start))) {
+    const auto alone = contrast_for(atlas, start, constraint);
+    const auto contrast = contrast_for(behaviours, start, constraint, {});
     ASSERT_TRUE(alone && contrast);
     EXPECT_EQ(contrast->alternative, alone->alternative);
   }
@@ -187,8 +187,8 @@ TEST(Question, IsNeverAnsweredWithADetour) {
           // "A than B" compares costs or gains of both ways.
           if (example.text.find(" than ") == std::string::npos) continue;
           Contrast contrast;
-          contrast.robot_counts = counts_of(domain, atlas.id(example.demo).mdp, example.path);
-          contrast.alternative_counts = counts_of(domain, atlas.id(example.demo).mdp, *example.alternative);
+          contrast.robot_counts = counts_of(domain, atlas.id(example.start).mdp, example.path);
+          contrast.alternative_counts = counts_of(domain, atlas.id(example.start).mdp, *example.alternative);
           const auto more = contrast.alternative_counts - contrast.robot_counts;
           const auto differing = std::count_if(more.begin(), more.end(), [](auto n) { return n != 0; });
           EXPECT_TRUE(differing == 1 || !is_detour(domain, contrast)) << example.text;
@@ -267,8 +267,8 @@ class Planned {
 
 void expect_flips(const Atlas& atlas, const Contrast& contrast, const Flip& flip) {
   const auto& domain = atlas.domain();
-  const auto [here, start_here] = atlas.id(contrast.demo);
-  const auto [there, start_there] = atlas.id(flip.demo);
+  const auto [here, start_here] = atlas.id(contrast.start);
+  const auto [there, start_there] = atlas.id(flip.start);
   EXPECT_NE(here, there);
   EXPECT_EQ(domain.map()->state(here, start_here).robot, domain.map()->state(there, start_there).robot);
   const Planned planned{domain, there};
@@ -293,7 +293,7 @@ TEST(NearestFlip, ReallyFlipsAndNoNearerWorldDoes) {
       const auto contrast = best_contrast(atlas, StartIndex{d}, [](const Contrast&) { return true; });
       if (!contrast) continue;
       const auto flip = nearest_flip(atlas, *contrast);
-      const auto here = atlas.id(contrast->demo).mdp;
+      const auto here = atlas.id(contrast->start).mdp;
       if (flip) {
         ++flips;
         expect_flips(atlas, *contrast, *flip);
@@ -301,7 +301,7 @@ TEST(NearestFlip, ReallyFlipsAndNoNearerWorldDoes) {
       for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
         const auto distance = toggled_groups(domain, here, m).size();
         if (m == here || (flip && distance >= flip->toggled.size())) continue;
-        const auto start = same_start(atlas, contrast->demo, m);
+        const auto start = same_start(atlas, contrast->start, m);
         EXPECT_FALSE(start && Planned(domain, m).flips(atlas.id(*start).start, *contrast)) << name << " " << d;
       }
     }

@@ -30,13 +30,13 @@ void expect_claims_hold(const Atlas& atlas, const Curriculum& curriculum) {
       EXPECT_TRUE(contains(shown.conveys, shown.main));
       EXPECT_EQ(constraint_of(shown.contrast.robot_counts, shown.contrast.alternative_counts), shown.main);
       EXPECT_NE(shown.reason.find(told(domain, shown.main)), std::string::npos);
-      EXPECT_EQ(shown.contrast.robot, atlas.trajectory(shown.demo));
+      EXPECT_EQ(shown.contrast.robot, atlas.trajectory(shown.start));
       EXPECT_GE(sign_of_dot(shown.main.normal(), domain.weights().integer), 0);
       // Really conveyed: somebody would expect another path from some state of the robot's, and lose by exactly this.
       bool conveyed = false;
       for (const auto s : shown.contrast.robot.states) {
-        if (domain.mdp(atlas.id(shown.demo).mdp).is_terminal(s)) continue;
-        const auto here = atlas.index({atlas.id(shown.demo).mdp, s});
+        if (domain.mdp(atlas.id(shown.start).mdp).is_terminal(s)) continue;
+        const auto here = atlas.index({atlas.id(shown.start).mdp, s});
         for (const auto& vertex : atlas.tables().coverage_set(here)) {
           if (vertex == atlas.feature_counts(here)) continue;
           conveyed = conveyed || constraint_of(atlas.feature_counts(here), vertex) == shown.main;
@@ -84,10 +84,10 @@ TEST(Curriculum, IsTheSameAgainAndAnotherWithAnotherSeed) {
     std::vector<std::string> all;
     for (const auto& component : make_curriculum(atlas, options).components) {
       for (const auto& demonstration : component.demonstrations) {
-        all.push_back(std::to_string(demonstration.demo.value()) + demonstration.reason);
+        all.push_back(std::to_string(demonstration.start.value()) + demonstration.reason);
       }
       for (const auto& test : component.tests) {
-        all.push_back(std::to_string(test.demo.value()) + std::to_string(test.share_right));
+        all.push_back(std::to_string(test.start.value()) + std::to_string(test.share_right));
       }
     }
     return all;
@@ -113,8 +113,8 @@ TEST(Curriculum, SharesAgreeWithAnIndependentCount) {
     int right = 0;
     for (int i = 0; i < kDraws; ++i) {
       const auto answer =
-          atlas.tables().answer(test.demo, atlas.tables().cells().locate(atlas.prior_cone().sample(random)));
-      right += answer == atlas.feature_counts(test.demo) ? 1 : 0;
+          atlas.tables().answer(test.start, atlas.tables().cells().locate(atlas.prior_cone().sample(random)));
+      right += answer == atlas.feature_counts(test.start) ? 1 : 0;
     }
     // Four standard errors of a share.
     EXPECT_NEAR(test.share_right, static_cast<double>(right) / kDraws, 4.0 * 0.5 / std::sqrt(kDraws));

@@ -26,10 +26,10 @@ void expect_shown(const Domain& domain, MdpIndex world, const Trajectory& path) 
 }
 
 void expect_contrast(const Atlas& atlas, const Contrast& contrast) {
-  const auto world = atlas.id(contrast.demo).mdp;
+  const auto world = atlas.id(contrast.start).mdp;
   expect_shown(atlas.domain(), world, contrast.robot);
   expect_shown(atlas.domain(), world, contrast.alternative);
-  EXPECT_FALSE(first_difference(contrast.robot, atlas.trajectory(contrast.demo)));
+  EXPECT_FALSE(first_difference(contrast.robot, atlas.trajectory(contrast.start)));
   ASSERT_LT(contrast.decisive, contrast.robot.actions.size());
   if (!atlas.domain().mdp(world).is_deterministic()) return;  // there both may take the same actions
   ASSERT_LT(contrast.decisive, contrast.alternative.actions.size());
@@ -60,14 +60,14 @@ void expect_taught_and_found(const std::string& name, std::span<const double> di
       for (const auto& component : curriculum.components) {
         for (const auto& shown : component.demonstrations) expect_contrast(atlas, shown.contrast);
         for (const auto& test : component.tests)
-          expect_shown(atlas.domain(), atlas.id(test.demo).mdp, atlas.trajectory(test.demo));
+          expect_shown(atlas.domain(), atlas.id(test.start).mdp, atlas.trajectory(test.start));
       }
     });
     for (const auto& isolated : isolated_constraints(atlas)) {
       for (const auto purpose : {Purpose::kTeach, Purpose::kTest}) {
-        const auto demo = simplest_isolating(atlas, isolated.constraint, purpose);
-        if (!demo) continue;
-        if (const auto contrast = contrast_for(atlas, *demo, isolated.constraint)) expect_contrast(atlas, *contrast);
+        const auto start = simplest_isolating(atlas, isolated.constraint, purpose);
+        if (!start) continue;
+        if (const auto contrast = contrast_for(atlas, *start, isolated.constraint)) expect_contrast(atlas, *contrast);
       }
     }
     std::vector<std::string> questions{"what does it do", "what does it do in world 0"};
@@ -77,7 +77,7 @@ void expect_taught_and_found(const std::string& name, std::span<const double> di
     for (const auto& question : questions) {
       answered += is_done([&] {
         for (const auto& example : answer_question(atlas, question).examples)
-          expect_shown(atlas.domain(), atlas.id(example.demo).mdp, example.path);
+          expect_shown(atlas.domain(), atlas.id(example.start).mdp, example.path);
       });
     }
     if (::testing::Test::HasFatalFailure()) return;

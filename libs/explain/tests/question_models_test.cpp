@@ -67,7 +67,7 @@ TEST(AskOfAModel, GivesChances) {
     EXPECT_THAT(example.text, ::testing::AnyOf(HasSubstr(", it may, with a chance of "), HasSubstr(", it does not: ")));
     EXPECT_THAT(example.text, ::testing::Not(HasSubstr("a single other step")));
   }
-  const auto world = std::to_string(atlas_of(pond).id(reply.examples.at(0).demo).mdp.value());
+  const auto world = std::to_string(atlas_of(pond).id(reply.examples.at(0).start).mdp.value());
   EXPECT_THAT(ask("when water in world " + world, pond).text, HasSubstr("can happen there, with a chance of "));
 }
 

@@ -22,7 +22,7 @@ using testing::complaint;
 using ::testing::HasSubstr;
 
 bool counts(const Atlas& atlas, const Example& example, std::size_t feature) {
-  return atlas.feature_counts(example.demo)[feature] != 0;
+  return atlas.feature_counts(example.start)[feature] != 0;
 }
 
 TEST(AskWhen, CountsWorldsAndShowsPairsThatDifferInOneThing) {
@@ -41,7 +41,7 @@ TEST(AskWhen, CountsWorldsAndShowsPairsThatDifferInOneThing) {
     const auto& no = reply.examples[i + 1];
     EXPECT_TRUE(counts(atlas, yes, 1)) << yes.text;
     EXPECT_FALSE(counts(atlas, no, 1)) << no.text;
-    const auto toggled = atlas.id(yes.demo).mdp.value() ^ atlas.id(no.demo).mdp.value();
+    const auto toggled = atlas.id(yes.start).mdp.value() ^ atlas.id(no.start).mdp.value();
     EXPECT_EQ(toggled & (toggled - 1), 0u) << "one group";
     EXPECT_THAT(yes.text, HasSubstr("it does: "));
     EXPECT_THAT(no.text, HasSubstr("it does not: "));
@@ -69,7 +69,7 @@ TEST(AskWhen, LooksAtTheNextStepWhereACellIsNamed) {
   ASSERT_GE(reply.examples.size(), 2u);
   EXPECT_EQ(atlas.domain().action_names()[reply.examples[0].path.actions[0].value()], "up");
   EXPECT_NE(atlas.domain().action_names()[reply.examples[1].path.actions[0].value()], "up");
-  EXPECT_EQ(atlas.domain().map()->state(atlas.id(reply.examples[0].demo).mdp, reply.examples[0].path.states[0]).robot,
+  EXPECT_EQ(atlas.domain().map()->state(atlas.id(reply.examples[0].start).mdp, reply.examples[0].path.states[0]).robot,
             (Cell{4, 1}));
   EXPECT_EQ(ask("where up at 4,3 carrying parcel").text, reply.text);
 }
@@ -88,7 +88,7 @@ TEST(AskWhere, ListsCellsWithAPathForEach) {
   ASSERT_EQ(reply.examples.size(), 1u);
   const auto& example = reply.examples[0];
   ASSERT_TRUE(example.decisive.has_value());
-  EXPECT_EQ(atlas.domain().map()->state(atlas.id(example.demo).mdp, example.path.states[*example.decisive]).robot,
+  EXPECT_EQ(atlas.domain().map()->state(atlas.id(example.start).mdp, example.path.states[*example.decisive]).robot,
             (Cell{4, 3}));
   EXPECT_EQ(ask("where recharge in world 0").text,
             "Stopping at the charger happens nowhere on the way from the map's start.");
@@ -103,8 +103,8 @@ TEST(AskWhy, ComparesTheStepWithTheOneInstead) {
 
 TEST(AskWhy, TellsWhenItDoesNot) {
   const auto& atlas = atlas_of("item-delivery");
-  const auto demo = atlas.index({MdpIndex{0}, atlas.domain().initial_state(MdpIndex{0})});
-  ASSERT_EQ(atlas.domain().action_names()[atlas.trajectory(demo).actions[0].value()], "pickup");
+  const auto start = atlas.index({MdpIndex{0}, atlas.domain().initial_state(MdpIndex{0})});
+  ASSERT_EQ(atlas.domain().action_names()[atlas.trajectory(start).actions[0].value()], "pickup");
   EXPECT_THAT(ask("why up at (4,3) in world 0").text, HasSubstr("It does not: at (4,3) in world 0 it picks it up; "));
 }
 
@@ -119,14 +119,14 @@ TEST(AskWhatIf, ShowsBothWorlds) {
   const auto& atlas = atlas_of("item-delivery");
   const auto reply = ask("what if there is no charger?");
   ASSERT_EQ(reply.examples.size(), 2u);
-  const auto with = atlas.id(reply.examples[0].demo).mdp;
-  const auto without = atlas.id(reply.examples[1].demo).mdp;
+  const auto with = atlas.id(reply.examples[0].start).mdp;
+  const auto without = atlas.id(reply.examples[1].start).mdp;
   EXPECT_EQ(reply.question, "What happens in world " + std::to_string(with.value()) + " without the charger at (4,1)?");
   EXPECT_EQ(toggled_groups(atlas.domain(), with, without).size(), 1u);
   const auto both = ask("what if rubble at (3,3) and charger");
   EXPECT_EQ(both.question, "What happens in world 0 with the rubble at (3,3) and the charger at (4,1)?");
   const auto none = ask("what if no charger and no rubble in world 63");
-  EXPECT_EQ(atlas.id(none.examples[1].demo).mdp, MdpIndex{0});
+  EXPECT_EQ(atlas.id(none.examples[1].start).mdp, MdpIndex{0});
 }
 
 TEST(AskWhat, TellsTheNextStep) {
@@ -326,7 +326,7 @@ TEST(AskWhen, IsAboutTheWorldsThatAConditionLeaves) {
         EXPECT_THAT(reply.text, HasSubstr(" in " + std::to_string(yes) + " of " + std::to_string(of) + " worlds with"));
         EXPECT_EQ(ask("if " + condition + ", does it " + doing(domain.wording(k), 1, false)).text, reply.text);
         for (const auto& example : reply.examples) {
-          const auto world = domain.present_things(atlas.id(example.demo).mdp);
+          const auto world = domain.present_things(atlas.id(example.start).mdp);
           bool is_there = false;
           for (std::size_t g = 0; g < groups.size(); ++g) is_there = is_there || (groups[g].name == thing && world[g]);
           EXPECT_EQ(is_there, present) << reply.question << " " << example.text;
@@ -404,7 +404,7 @@ TEST(Ask, WorksInAllSmallDomains) {
         EXPECT_EQ(reply.text.find('{'), std::string::npos);
         for (const auto& example : reply.examples) {
           EXPECT_FALSE(example.text.empty());
-          EXPECT_TRUE(atlas.domain().mdp(atlas.id(example.demo).mdp).is_terminal(example.path.states.back()));
+          EXPECT_TRUE(atlas.domain().mdp(atlas.id(example.start).mdp).is_terminal(example.path.states.back()));
         }
       }
     }

@@ -16,10 +16,10 @@ namespace {
 using testing::atlas_of;
 
 // Runs keep to the robot's policy and to outcomes that can follow.
-void expect_possible(const Atlas& atlas, StartIndex demo, const PolicyRun& run) {
-  const auto world = atlas.id(demo).mdp;
+void expect_possible(const Atlas& atlas, StartIndex start, const PolicyRun& run) {
+  const auto world = atlas.id(start).mdp;
   const auto& mdp = atlas.domain().mdp(world);
-  ASSERT_EQ(run.path.states.front(), atlas.id(demo).start);
+  ASSERT_EQ(run.path.states.front(), atlas.id(start).start);
   ASSERT_EQ(run.path.states.size(), run.path.actions.size() + 1);
   EXPECT_EQ(run.has_ended, mdp.is_terminal(run.path.states.back()));
   for (std::size_t t = 0; t < run.path.actions.size(); ++t) {

@@ -29,14 +29,14 @@ TEST(SimplestIsolating, IsTheSimplestOfAllThatConveyExactlyTheConstraint) {
       SCOPED_TRACE(std::string{name} + ": " + described(atlas.domain(), isolated.constraint));
       std::size_t n = 0;
       std::optional<StartIndex> best;
-      const auto rank = [&](StartIndex demo) {
-        return std::pair{atlas.domain().complexity(atlas.id(demo)), atlas.trajectory(demo).actions.size()};
+      const auto rank = [&](StartIndex start) {
+        return std::pair{atlas.domain().complexity(atlas.id(start)), atlas.trajectory(start).actions.size()};
       };
-      for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-        if (!same_weights(atlas, atlas.constraints().half_spaces(atlas.one_step(demo)), {isolated.constraint}))
+      for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+        if (!same_weights(atlas, atlas.constraints().half_spaces(atlas.one_step(start)), {isolated.constraint}))
           continue;
         ++n;
-        if (!best || rank(demo) < rank(*best)) best = demo;
+        if (!best || rank(start) < rank(*best)) best = start;
       }
       EXPECT_EQ(n, isolated.teaching);
       EXPECT_EQ(simplest_isolating(atlas, isolated.constraint, Purpose::kTeach), best);
@@ -51,11 +51,11 @@ TEST(SimplestIsolating, FindsTestsThatDiscriminateTheConstraintAlone) {
   const auto& atlas = atlas_of("item-delivery");
   std::size_t tests = 0;
   for (const auto& isolated : isolated_constraints(atlas)) {
-    const auto demo = simplest_isolating(atlas, isolated.constraint, Purpose::kTest);
-    EXPECT_EQ(demo.has_value(), isolated.testing > 0);
-    if (!demo) continue;
+    const auto start = simplest_isolating(atlas, isolated.constraint, Purpose::kTest);
+    EXPECT_EQ(start.has_value(), isolated.testing > 0);
+    if (!start) continue;
     ++tests;
-    EXPECT_TRUE(same_weights(atlas, atlas.constraints().half_spaces(atlas.tables().robot_cell_facets(*demo)),
+    EXPECT_TRUE(same_weights(atlas, atlas.constraints().half_spaces(atlas.tables().robot_cell_facets(*start)),
                              {isolated.constraint}));
   }
   EXPECT_GT(tests, 0u);

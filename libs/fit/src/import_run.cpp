@@ -35,7 +35,7 @@ struct Shown {
 
 struct Answered {
   ResponseRecord response;
-  StartIndex demo;
+  StartIndex start;
 };
 
 class RunImport {
@@ -224,9 +224,9 @@ class RunImport {
     period.conveyed = shown.half_spaces;
     std::ranges::sort(answers, {}, [](const Answered& answered) { return answered.response.test; });
     std::set<HalfSpace> possible;
-    for (const auto& [response, demo] : answers) {
+    for (const auto& [response, start] : answers) {
       if (const auto* tables = atlas_->find_tables()) {
-        const auto facets = tables->finite_region(demo).facets();
+        const auto facets = tables->finite_region(start).facets();
         possible.insert(facets.begin(), facets.end());
       }
       period.all_correct = period.all_correct && response.correct;
@@ -236,22 +236,22 @@ class RunImport {
       }
       person.correct += response.correct ? 1u : 0u;
       ++person.answered;
-      add_answer(period, response, demo);
+      add_answer(period, response, start);
     }
     period.possible.assign(possible.begin(), possible.end());
     period.feedback = !answers.empty();
     return period;
   }
 
-  void add_answer(LoggedPeriod& period, const ResponseRecord& answered, StartIndex demo) {
+  void add_answer(LoggedPeriod& period, const ResponseRecord& answered, StartIndex start) {
     if (!answered.answer) {  // no answer at all: nothing is known of the weight
       ++num_unanswered_;
       return;
     }
-    period.given.push_back({demo, *answered.answer});
+    period.given.push_back({start, *answered.answer});
     period.given_right.push_back(answered.correct);
     if (!atlas_->find_tables()) return;  // find_answer_regions() goes on
-    const auto coverage = atlas_->tables().coverage_set(demo);
+    const auto coverage = atlas_->tables().coverage_set(start);
     const bool known = std::find(coverage.begin(), coverage.end(), *answered.answer) != coverage.end();
     if (detail_ == AnswerDetail::kPath && known) {
       AnswerRegion region;
@@ -264,7 +264,7 @@ class RunImport {
     }
     if (detail_ == AnswerDetail::kPath) ++num_unknown_paths_;
     period.answers.push_back(
-        {atlas_->constraints().half_spaces(atlas_->tables().robot_cell_facets(demo)), answered.correct});
+        {atlas_->constraints().half_spaces(atlas_->tables().robot_cell_facets(start)), answered.correct});
     period.chance /= 2.0;
   }
 

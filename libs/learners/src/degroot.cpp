@@ -39,7 +39,7 @@ std::vector<std::vector<Answer>> share_beliefs(const ParameterValues& values, Di
   }
   const auto trust = trust_in(beliefs);
   std::vector<StartIndex> tests;
-  for (const auto& test : discussion.tests) tests.push_back(test.demo);
+  for (const auto& test : discussion.tests) tests.push_back(test.start);
   std::vector<std::vector<Answer>> revised(members.size());
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (!beliefs[i]) continue;

@@ -36,7 +36,7 @@ class ImitatingLearner final : public LikeBayesian {
     std::vector<std::vector<Transfer>> transfers(given.size());
     for (std::size_t t = 0; t < given.size(); ++t) {
       similarities.push_back(similarity(atlas, given[t].test));
-      for (const auto demo : shown_) transfers[t].push_back(transferred(atlas, demo, given[t].test).value());
+      for (const auto start : shown_) transfers[t].push_back(transferred(atlas, start, given[t].test).value());
     }
     return mean_over_cells(*person_.belief(), evidence, [&](PolicyCellIndex cell) {
       double product = 1.0;
@@ -73,8 +73,8 @@ class ImitatingLearner final : public LikeBayesian {
   // exp(-distance / temperature) of every demonstration, the nearest having 1.
   [[nodiscard]] std::vector<double> similarity(const Atlas& atlas, StartIndex test) const {
     std::vector<double> values;
-    for (const auto demo : shown_) {
-      values.push_back(static_cast<double>(atlas.domain().dissimilarity(atlas.id(demo), atlas.id(test))));
+    for (const auto start : shown_) {
+      values.push_back(static_cast<double>(atlas.domain().dissimilarity(atlas.id(start), atlas.id(test))));
     }
     const double least = *std::min_element(values.begin(), values.end());
     for (double& value : values) value = std::exp((least - value) / temperature_);

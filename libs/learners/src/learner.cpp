@@ -19,8 +19,8 @@ std::vector<HalfSpace> conveyed_to(Behaviours& behaviours, Regions& regions, std
   std::vector<PolicyCellIndex> cells;
   for (const auto& weights : expected) cells.push_back(behaviours.locate(weights));
   std::vector<HalfSpace> result;
-  for (const auto demo : demonstrations) {
-    const auto own = behaviours.constraints().half_spaces(regions.minimal(behaviours.conveyed(demo, cells)));
+  for (const auto start : demonstrations) {
+    const auto own = behaviours.constraints().half_spaces(regions.minimal(behaviours.conveyed(start, cells)));
     result.insert(result.end(), own.begin(), own.end());
   }
   return result;

@@ -38,7 +38,7 @@ class PresumedPerson final : public PresumedLearner {
   [[nodiscard]] double likelihood(const AnswerFit& fit, PointCells& cells) const override {
     if (person_->answers_as_believed() || !fit.atlas().find_tables()) return fit.of(belief(), cells).likelihood;
     std::vector<GivenAnswer> given;
-    for (const auto& one : fit.given()) given.push_back({one.demo, one.counts});
+    for (const auto& one : fit.given()) given.push_back({one.start, one.counts});
     const double guess = fit.of(AnswerFit::Guess::kAny).likelihood;
     const auto answers = person_->likelihood(AnswerEvidence{fit.atlas(), given});
     return (1.0 - AnswerFit::slip()) * answers.value_or(guess) + AnswerFit::slip() * guess;

@@ -17,7 +17,7 @@ void pass_time(Learner& learner, const Session& session) {
 
 void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options) {
   std::vector<StartIndex> demos;
-  for (const auto& shown : lesson.demonstrations) demos.push_back(shown.demo);
+  for (const auto& shown : lesson.demonstrations) demos.push_back(shown.start);
   learner.see(cache.atlas(), demos);
   std::vector<Direction> expected;
   if (options.own_counterfactuals > 0) {
@@ -53,7 +53,7 @@ PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& le
   const Lesson& lesson = session.lesson();
   const bool begins = begins_component(session);
   std::vector<StartIndex> tests;
-  for (const auto& test : lesson.tests) tests.push_back(test.demo);
+  for (const auto& test : lesson.tests) tests.push_back(test.start);
   session.show();
   PeriodOfLearners period;
   period.responses.resize(learners.size());

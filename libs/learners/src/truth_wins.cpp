@@ -19,7 +19,7 @@ std::span<const Parameter> truth_wins_parameters() {
 bool is_right(const Discussion& discussion, std::size_t test, const Answer& answer) {
   if (!answer) return false;
   const auto& atlas = discussion.behaviours.atlas();
-  return judge_path(atlas.domain(), atlas.feature_counts(discussion.tests[test].demo), *answer).is_right;
+  return judge_path(atlas.domain(), atlas.feature_counts(discussion.tests[test].start), *answer).is_right;
 }
 
 // The right answer that members gave to a test; of several the smallest.

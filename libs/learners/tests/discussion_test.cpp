@@ -113,10 +113,10 @@ INSTANTIATE_TEST_SUITE_P(All, DiscussionLaws,
 
 // Answers of one test by hand: what the members say afterwards.
 std::vector<std::vector<Answer>> after(const DiscussionChoice& choice, const std::vector<IntegerVector>& given,
-                                       StartIndex demo) {
+                                       StartIndex start) {
   TeachingCache cache{item_delivery()};
   auto group = group_of(cache, {1, 2, 3, 4});
-  const kith::Test test{.demo = demo, .covered = item_delivery().policy_bec_half_spaces()};
+  const kith::Test test{.start = start, .covered = item_delivery().policy_bec_half_spaces()};
   Discussion discussion{cache.behaviours(), {&test, 1}, 1, {}};
   for (std::size_t i = 0; i < given.size(); ++i) {
     discussion.members.push_back({group.learners[i].get(), {given[i]}, group.persons[i]});
@@ -195,7 +195,7 @@ TEST(DeGroot, MixesBeliefsInTheSharesOfTrust) {
   ASSERT_GT(trust, 0.5);
   auto choice = choice_of(model_named("degroot"));
   choice.values.set("openness", 0.6);
-  const kith::Test test{.demo = kTest, .covered = {}};
+  const kith::Test test{.start = kTest, .covered = {}};
   Discussion discussion{cache.behaviours(), {&test, 1}, 1, {}};
   for (std::size_t i = 0; i < 2; ++i) {
     discussion.members.push_back({group.learners[i].get(), {std::nullopt}, group.persons[i]});

@@ -136,8 +136,8 @@ TEST(PresumedKinds, ChangeLessonsForPeopleWhoImitate) {
         .lesson.demonstrations;
   };
   const auto plan = strategy_named("plan");
-  EXPECT_EQ(first_lesson(plan, {"bayesian"}).front().demo, first_lesson(plan, {"slipping"}).front().demo);
-  EXPECT_NE(first_lesson(plan, {"bayesian"}).front().demo, first_lesson(plan, {"imitating"}).front().demo);
+  EXPECT_EQ(first_lesson(plan, {"bayesian"}).front().start, first_lesson(plan, {"slipping"}).front().start);
+  EXPECT_NE(first_lesson(plan, {"bayesian"}).front().start, first_lesson(plan, {"imitating"}).front().start);
   // It waits until somebody is likelier to imitate than not.
   auto patient = plan;
   patient.parameters.set("answers", 0.0);

@@ -61,9 +61,9 @@ std::optional<StateIndex> state_of(const GridMap& map, MdpIndex world, const Jso
 }
 
 // The robot's path beside the best one that trades something for something else, as people may have expected it.
-std::optional<Contrast> trade(const Atlas& atlas, StartIndex demo) {
+std::optional<Contrast> trade(const Atlas& atlas, StartIndex start) {
   if (atlas.find_tables() == nullptr) return std::nullopt;
-  return best_contrast(atlas, demo, [&](const Contrast& one) { return !is_detour(atlas.domain(), one); });
+  return best_contrast(atlas, start, [&](const Contrast& one) { return !is_detour(atlas.domain(), one); });
 }
 
 Exploration explored_in(const Atlas& atlas, MdpIndex world, const Json& start) {
@@ -100,13 +100,13 @@ std::vector<std::string> placeable_symbols(const Domain& domain) {
   return symbols;
 }
 
-Exploration explored(const Atlas& atlas, StartIndex demo) {
+Exploration explored(const Atlas& atlas, StartIndex start) {
   const auto& domain = atlas.domain();
-  const auto world = atlas.id(demo).mdp;
-  auto robot = expected_path(atlas, demo);
+  const auto world = atlas.id(start).mdp;
+  auto robot = expected_path(atlas, start);
   view::Found found;
-  found.at<"board">() = live_board(atlas, demo);
-  if (const auto contrast = trade(atlas, demo)) {
+  found.at<"board">() = live_board(atlas, start);
+  if (const auto contrast = trade(atlas, start)) {
     found.at<"other">() = path_json(domain, world, contrast->alternative);
     found.at<"differs_at">() = contrast->decisive;
     found.at<"reason">() = sentence(reason(atlas, *contrast));
@@ -115,8 +115,8 @@ Exploration explored(const Atlas& atlas, StartIndex demo) {
   }
   found.at<"path">() = path_json(domain, world, robot);
   Exploration result{{false, std::move(found)}, {}};
-  if (!atlas.is_candidate(demo)) return result;
-  for (auto& half_space : atlas.constraints().half_spaces(atlas.one_step(demo))) {
+  if (!atlas.is_candidate(start)) return result;
+  for (auto& half_space : atlas.constraints().half_spaces(atlas.one_step(start))) {
     if (sign_of_dot(domain.weights().integer, half_space.normal()) > 0)
       result.conveyed.push_back(std::move(half_space));
   }

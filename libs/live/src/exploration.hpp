@@ -30,6 +30,6 @@ struct Exploration {
 
 /// Never throws for what people send.
 [[nodiscard]] Exploration explored(const LiveStudy& study, const happening::Explored& asked);
-[[nodiscard]] Exploration explored(const Atlas& atlas, StartIndex demo);
+[[nodiscard]] Exploration explored(const Atlas& atlas, StartIndex start);
 
 }  // namespace kith

@@ -123,20 +123,20 @@ namespace {
 view::Judged judged_view(const RoomParts& room, const Test& test, bool right, const std::optional<GivenPath>& given) {
   const auto& atlas = *room.study.atlas;
   const auto& domain = atlas.domain();
-  const auto [world, start] = atlas.id(test.demo);
+  const auto [world, start] = atlas.id(test.start);
   const auto& mdp = domain.mdp(world);
   view::Judged judged;
-  judged.at<"board">() = live_board(room.study, test.demo);
+  judged.at<"board">() = live_board(room.study, test.start);
   judged.at<"right">() = right;
   // Of a right answer that the shortest path gives, too, nothing is said.
   if (!right || test.is_shortest_wrong) {
     for (const auto& text : all_in_words(domain, test.covered)) judged.at<"why">().push_back(sentence(text));
   }
 
-  auto robot = expected_path(atlas, test.demo);
+  auto robot = expected_path(atlas, test.start);
   std::string between;  // of the paths that are drawn, where counts would not say it
   if (given) {
-    auto mine = judged_path(atlas, test.demo, given->actions, given->for_ever).path;
+    auto mine = judged_path(atlas, test.start, given->actions, given->for_ever).path;
     if (mdp.is_deterministic() && !is_exact(mdp)) between = choice_between(domain, world, robot, mine);
     const auto at = first_difference(mine, robot);
     judged.at<"differs_at">() = at;
@@ -162,7 +162,7 @@ view::Judged judged_view(const RoomParts& room, const Test& test, bool right, co
   judged.at<"unfinished">() = given && !given->is_finished;
   if (!right && given && given->counts) {
     judged.at<"cost">() = between.empty()
-                              ? cost_in_words(domain, world, atlas.feature_counts(test.demo), *given->counts)
+                              ? cost_in_words(domain, world, atlas.feature_counts(test.start), *given->counts)
                               : "The robot takes another path: " + between + ".";
   }
   return judged;
@@ -201,7 +201,7 @@ view::Explore explore_view(const RoomParts& room, const LiveSeat& seat) {
   const auto& atlas = *room.study.atlas;
   const auto* lesson = last_lesson(room.state);
   const bool has_test = lesson != nullptr && !lesson->tests.empty();
-  const auto first = has_test ? lesson->tests.back().demo : room.study.sandbox;
+  const auto first = has_test ? lesson->tests.back().start : room.study.sandbox;
   const auto reference = reference_feature(atlas.domain(), atlas.knowledge_components());
   std::vector<std::size_t> features;
   for (std::size_t k = 0; k < atlas.domain().num_features(); ++k) {

@@ -23,8 +23,8 @@ RoomEvent room_event(const Json& json) try {
 Json lesson_content(const TaughtLesson& lesson, std::uint64_t seq) {
   Json demos = Json::array(), tests = Json::array();
   if (lesson.after->phase() != SessionPhase::kFinished) {
-    for (const auto& shown : lesson.after->lesson().demonstrations) demos.push_back(shown.demo.value());
-    for (const auto& test : lesson.after->lesson().tests) tests.push_back(test.demo.value());
+    for (const auto& shown : lesson.after->lesson().demonstrations) demos.push_back(shown.start.value());
+    for (const auto& test : lesson.after->lesson().tests) tests.push_back(test.start.value());
   }
   return {{"seq", seq}, {"demos", demos}, {"tests", tests}};
 }

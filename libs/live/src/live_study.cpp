@@ -113,12 +113,12 @@ StartIndex find_sandbox(const Atlas& atlas) {
   std::optional<StartIndex> best;
   std::tuple<bool, bool, int, std::size_t> best_rank;
   for (std::size_t i = 0; i < atlas.num_states(); ++i) {
-    const StartIndex demo{i};
-    const bool tests = atlas.is_candidate(demo) && !atlas.tested_constraints(demo).without(atlas.prior()).empty();
-    const auto steps = std::min(kRoom, atlas.trajectory(demo).actions.size());
-    const std::tuple rank{steps < 2, tests, atlas.complexity(demo), kRoom - steps};
+    const StartIndex start{i};
+    const bool tests = atlas.is_candidate(start) && !atlas.tested_constraints(start).without(atlas.prior()).empty();
+    const auto steps = std::min(kRoom, atlas.trajectory(start).actions.size());
+    const std::tuple rank{steps < 2, tests, atlas.complexity(start), kRoom - steps};
     if (!best || rank < best_rank) {
-      best = demo;
+      best = start;
       best_rank = rank;
     }
   }
@@ -130,11 +130,11 @@ std::vector<StartIndex> draw_screening(const Atlas& atlas, std::size_t n, Random
   std::vector<StartIndex> chosen;
   const auto unused = [&](std::span<const StartIndex> candidates) {
     std::vector<StartIndex> left;
-    for (const auto demo : candidates) {
+    for (const auto start : candidates) {
       const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](StartIndex other) {
-        return atlas.trajectory_class(other) == atlas.trajectory_class(demo);
+        return atlas.trajectory_class(other) == atlas.trajectory_class(start);
       });
-      if (is_new) left.push_back(demo);
+      if (is_new) left.push_back(start);
     }
     return left;
   };

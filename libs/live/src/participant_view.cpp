@@ -180,7 +180,7 @@ class ParticipantPage {
     } else if (stage == rules_of(RoomPhase::kTesting).word) {
       const auto& tests = state_.session->lesson().tests;
       const auto test = current_test(seat_);
-      page.at<"predict">() = task(tests[test].demo, test, tests.size(), seat_.draft);
+      page.at<"predict">() = task(tests[test].start, test, tests.size(), seat_.draft);
     } else if (stage == rules_of(RoomPhase::kDiscussing).word) {
       page.at<"discuss">() = discussion();
     } else if (stage == rules_of(RoomPhase::kFeedback).word) {
@@ -198,13 +198,13 @@ class ParticipantPage {
     if (state_.deadline_us && stage == rules_of(state_.phase).word) page.at<"limit_ms">() = in_ms(*state_.deadline_us);
   }
 
-  [[nodiscard]] std::size_t start_number(StartIndex demo) const {
-    const auto id = room_.study.atlas->id(demo);
+  [[nodiscard]] std::size_t start_number(StartIndex start) const {
+    const auto id = room_.study.atlas->id(start);
     return world_state(room_.study, id.mdp, id.start).value_or(0);
   }
 
-  [[nodiscard]] std::string world_of(StartIndex demo) const {
-    return world_key(room_.study, room_.study.atlas->id(demo).mdp);
+  [[nodiscard]] std::string world_of(StartIndex start) const {
+    return world_key(room_.study, room_.study.atlas->id(start).mdp);
   }
 
   [[nodiscard]] view::Check check() const {
@@ -213,39 +213,40 @@ class ParticipantPage {
             study.atlas->knowledge_components().size(), study.spec.teaching.max_periods, study.group().ask_name};
   }
 
-  [[nodiscard]] view::Task task(StartIndex demo, std::size_t index, std::size_t of,
+  [[nodiscard]] view::Task task(StartIndex start, std::size_t index, std::size_t of,
                                 const std::vector<std::size_t>& draft) const {
-    return {index, of, live_board(room_.study, demo), world_of(demo), start_number(demo), draft};
+    return {index, of, live_board(room_.study, start), world_of(start), start_number(start), draft};
   }
 
   // What the group predicted, without names; which one is the own, and how many predicted each.
   [[nodiscard]] view::Discussion discussion() const {
     const auto test = current_choice(seat_);
-    const auto demo = state_.session->lesson().tests[test].demo;
+    const auto start = state_.session->lesson().tests[test].start;
     const auto& domain = room_.study.atlas->domain();
     const auto own = own_entry(state_, test, *seat_.member);
     std::vector<view::Prediction> predictions;
     for (std::size_t e = 0; e < state_.board[test].size(); ++e) {
       const auto& entry = state_.board[test][e];
-      const auto path = judged_path(*room_.study.atlas, demo, entry.path.actions, entry.path.for_ever).path;
-      predictions.push_back({path_json(domain, room_.study.atlas->id(demo).mdp, path), own == e, entry.members.size()});
+      const auto path = judged_path(*room_.study.atlas, start, entry.path.actions, entry.path.for_ever).path;
+      predictions.push_back(
+          {path_json(domain, room_.study.atlas->id(start).mdp, path), own == e, entry.members.size()});
     }
-    return {test, state_.board.size(), live_board(room_.study, demo), std::move(predictions)};
+    return {test, state_.board.size(), live_board(room_.study, start), std::move(predictions)};
   }
 
   [[nodiscard]] view::Watch watch() const {
     const auto& demonstrations = state_.session->lesson().demonstrations;
-    const auto demo = demonstrations[seat_.watched].demo;
+    const auto start = demonstrations[seat_.watched].start;
     view::Watch watch{seat_.watched,
                       demonstrations.size(),
-                      live_board(room_.study, demo),
-                      robot_path(room_.study, demo),
+                      live_board(room_.study, start),
+                      robot_path(room_.study, start),
                       {},
                       {},
-                      robot_runs(room_.study, demo)};
+                      robot_runs(room_.study, start)};
     if (!room_.study.group().screens.predict_first) return watch;
-    watch.at<"world">() = world_of(demo);
-    watch.at<"state">() = start_number(demo);
+    watch.at<"world">() = world_of(start);
+    watch.at<"state">() = start_number(start);
     return watch;
   }
 
@@ -320,7 +321,7 @@ class ParticipantPage {
 
 }  // namespace
 
-Json live_board(const Atlas& atlas, StartIndex demo) {
+Json live_board(const Atlas& atlas, StartIndex start) {
   const auto& domain = atlas.domain();
   const auto all = board_domain_json(domain);
   Json legend{{"id", all["id"]}};
@@ -328,20 +329,20 @@ Json live_board(const Atlas& atlas, StartIndex demo) {
     if (all.contains(key)) legend[key] = all[key];
   }
   Json board{{"domain", legend}};
-  board.update(board_json(domain, atlas.id(demo)));
+  board.update(board_json(domain, atlas.id(start)));
   return board;
 }
 
-Json robot_path(const LiveStudy& study, StartIndex demo) {
-  return path_json(study.atlas->domain(), study.atlas->id(demo).mdp, study.atlas->trajectory(demo));
+Json robot_path(const LiveStudy& study, StartIndex start) {
+  return path_json(study.atlas->domain(), study.atlas->id(start).mdp, study.atlas->trajectory(start));
 }
 
-Json robot_runs(const LiveStudy& study, StartIndex demo) {
+Json robot_runs(const LiveStudy& study, StartIndex start) {
   constexpr std::size_t kRuns = 10;
-  const auto world = study.atlas->id(demo).mdp;
+  const auto world = study.atlas->id(start).mdp;
   if (study.atlas->domain().mdp(world).is_deterministic()) return nullptr;
-  auto random = RandomStream{study.spec.seed}.split("runs").split(demo.value());
-  return runs_json(study.atlas->domain(), world, several_runs(*study.atlas, demo, kRuns, random));
+  auto random = RandomStream{study.spec.seed}.split("runs").split(start.value());
+  return runs_json(study.atlas->domain(), world, several_runs(*study.atlas, start, kRuns, random));
 }
 
 Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us) {

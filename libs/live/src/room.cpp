@@ -297,7 +297,7 @@ std::vector<TeachingTask> Room::likely_teaching() const {
       for (std::size_t t = 0; t < tests.size(); ++t) {
         const bool is_given = t < seat.paths.size() && seat.paths[t];
         answered.answers.push_back(is_given ? seat.paths[t]->counts
-                                            : Answer{study_->atlas->feature_counts(tests[t].demo)});
+                                            : Answer{study_->atlas->feature_counts(tests[t].start)});
       }
       ahead.emplace_back(std::move(answered));
     }

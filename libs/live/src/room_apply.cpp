@@ -129,8 +129,9 @@ class RoomChange {
   void happen(const Drafted& e) { who().draft = e.actions; }
   void happen(const Answered& e) {
     auto& person = who();
-    const auto demo = state_.session->lesson().tests.at(e.test).demo;
-    auto judged = e.erased.is_null() ? judged_path(*study_.atlas, demo, e.actions, e.for_ever) : what_is_left(e.erased);
+    const auto start_index = state_.session->lesson().tests.at(e.test).start;
+    auto judged =
+        e.erased.is_null() ? judged_path(*study_.atlas, start_index, e.actions, e.for_ever) : what_is_left(e.erased);
     person.paths.at(e.test) = GivenPath{e.actions, e.for_ever, judged.is_finished, judged.counts, e.ms};
     person.draft.clear();
     person.since_us = event_.at_us;

@@ -57,10 +57,10 @@ class SeatDecider : Decider {
     if (seat_.readiness == Readiness::kConsent || seat_.readiness == Readiness::kCheck) return not_now();
     if (answer.test < seat_.screened.size()) return nothing_to_do();
     if (seat_.readiness != Readiness::kScreening || answer.test != seat_.screened.size()) return not_now();
-    const auto demo = room_.study.screening[answer.test];
-    const auto judged = judged_path(*room_.study.atlas, demo, answer.actions, answer.for_ever);
+    const auto start = room_.study.screening[answer.test];
+    const auto judged = judged_path(*room_.study.atlas, start, answer.actions, answer.for_ever);
     if (!judged.is_legal) return illegal(judged);
-    answer.right = is_right(demo, judged);
+    answer.right = is_right(start, judged);
     return accepted(std::move(answer));
   }
 
@@ -188,9 +188,9 @@ class SeatDecider : Decider {
   [[nodiscard]] static Decision not_now() { return refused("not-now", "This is not possible at the moment."); }
   [[nodiscard]] static Decision too_late() { return refused("too-late", "The group has moved on."); }
 
-  [[nodiscard]] bool is_right(StartIndex demo, const JudgedPath& judged) const {
+  [[nodiscard]] bool is_right(StartIndex start, const JudgedPath& judged) const {
     const auto& atlas = *room_.study.atlas;
-    return judged.counts && judge_path(atlas.domain(), atlas.feature_counts(demo), *judged.counts).is_right;
+    return judged.counts && judge_path(atlas.domain(), atlas.feature_counts(start), *judged.counts).is_right;
   }
 
   [[nodiscard]] Decision illegal(const JudgedPath& judged) const {
@@ -203,7 +203,7 @@ class SeatDecider : Decider {
   }
 
   [[nodiscard]] JudgedPath judged_at(std::size_t test, const std::vector<std::size_t>& actions, bool for_ever) const {
-    return judged_path(*room_.study.atlas, state_.session->lesson().tests[test].demo, actions, for_ever);
+    return judged_path(*room_.study.atlas, state_.session->lesson().tests[test].start, actions, for_ever);
   }
 
   // A step from 1 for Likert items, the option's text for choices, a text.

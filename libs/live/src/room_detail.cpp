@@ -89,17 +89,17 @@ class RoomDetailPage {
   [[nodiscard]] view::LessonNow lesson_view(const Lesson& lesson) const {
     view::LessonNow now{lesson.source.rule, why(lesson), {}, {}, {}};
     if (lesson.source.is_member()) now.at<"source">() = "member " + std::to_string(lesson.source.member + 1);
-    const auto shown = [&](StartIndex demo, std::optional<double> gain, std::span<const HalfSpace> half_spaces) {
-      return view::ShownBoard{live_board(room_.study, demo), robot_path(room_.study, demo), gain,
+    const auto shown = [&](StartIndex start, std::optional<double> gain, std::span<const HalfSpace> half_spaces) {
+      return view::ShownBoard{live_board(room_.study, start), robot_path(room_.study, start), gain,
                               plain_sentences(domain_, half_spaces)};
     };
     for (const auto& one : lesson.demonstrations)
-      now.at<"demonstrations">().push_back(shown(one.demo, one.gain, one.half_spaces));
-    for (const auto& test : lesson.tests) now.at<"tests">().push_back(shown(test.demo, std::nullopt, test.covered));
+      now.at<"demonstrations">().push_back(shown(one.start, one.gain, one.half_spaces));
+    for (const auto& test : lesson.tests) now.at<"tests">().push_back(shown(test.start, std::nullopt, test.covered));
     if (state_.runners_up && rules_of(state_.phase).has_open_lesson) {
       for (const auto& other : *state_.runners_up) {
         now.at<"runners_up">().push_back(
-            {live_board(room_.study, other.demo), other.gain, plain_sentences(domain_, other.half_spaces)});
+            {live_board(room_.study, other.start), other.gain, plain_sentences(domain_, other.half_spaces)});
       }
     }
     return now;

@@ -391,13 +391,13 @@ std::optional<GivenPath> RoomStepper::path_of(std::size_t member, std::size_t te
   if (seat.is_person) return test < seat.paths.size() ? seat.paths[test] : std::nullopt;
   const auto& answer = state_.session->answers(member)[test];
   if (!answer || !place.response.weights) return std::nullopt;
-  const auto demo = state_.session->lesson().tests[test].demo;
-  const auto drawn = cache_.behaviours().trajectory(demo, *place.response.weights);
+  const auto start = state_.session->lesson().tests[test].start;
+  const auto drawn = cache_.behaviours().trajectory(start, *place.response.weights);
   if (!drawn || drawn->repeats_from) return std::nullopt;
   GivenPath path{.actions = {}, .is_finished = true, .counts = answer};
   for (const auto action : drawn->actions) path.actions.push_back(action.value());
-  const auto judged = judged_path(*study_.atlas, demo, path.actions, false);
-  const bool is_it = judged.is_legal && (!study_.atlas->domain().mdp(study_.atlas->id(demo).mdp).is_deterministic() ||
+  const auto judged = judged_path(*study_.atlas, start, path.actions, false);
+  const bool is_it = judged.is_legal && (!study_.atlas->domain().mdp(study_.atlas->id(start).mdp).is_deterministic() ||
                                          judged.counts == answer);
   return is_it ? std::optional{path} : std::nullopt;
 }

@@ -13,13 +13,15 @@ namespace kith {
 [[nodiscard]] inline std::int64_t in_ms(std::int64_t us) noexcept { return us / 1000; }
 
 /// A board as participants get it: the legend of the domain and the map, nothing about rewards.
-[[nodiscard]] Json live_board(const Atlas& atlas, StartIndex demo);
-[[nodiscard]] inline Json live_board(const LiveStudy& study, StartIndex demo) { return live_board(*study.atlas, demo); }
+[[nodiscard]] Json live_board(const Atlas& atlas, StartIndex start);
+[[nodiscard]] inline Json live_board(const LiveStudy& study, StartIndex start) {
+  return live_board(*study.atlas, start);
+}
 /// The robot's path from there: path_json().
-[[nodiscard]] Json robot_path(const LiveStudy& study, StartIndex demo);
+[[nodiscard]] Json robot_path(const LiveStudy& study, StartIndex start);
 /// Runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where nothing is
 /// left to chance.
-[[nodiscard]] Json robot_runs(const LiveStudy& study, StartIndex demo);
+[[nodiscard]] Json robot_runs(const LiveStudy& study, StartIndex start);
 
 /// ParticipantView.
 [[nodiscard]] Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us);

@@ -28,18 +28,18 @@ std::vector<RunnerUp> runners_up(const Session& before, const Lesson& lesson, Te
                                    .likelihood = team.options().likelihood};
   VisitedStarts excluded{before.atlas().num_states()};
   for (const auto& past : before.history()) {
-    for (const auto& shown : past.lesson.demonstrations) excluded.insert(shown.demo);
-    for (const auto& test : past.lesson.tests) excluded.insert(test.demo);
+    for (const auto& shown : past.lesson.demonstrations) excluded.insert(shown.start);
+    for (const auto& test : past.lesson.tests) excluded.insert(test.start);
   }
-  excluded.insert(lesson.demonstrations.front().demo);
+  excluded.insert(lesson.demonstrations.front().start);
   const auto& component = before.atlas().knowledge_components()[lesson.component];
   const RandomStream random{lesson.period};
   while (found.size() < n) {
     auto unit = select_demonstrations(cache, *belief, component, before.taught_region(), excluded, selection, random);
     if (unit.demonstrations.empty()) break;
     auto& first = unit.demonstrations.front();
-    excluded.insert(first.demo);
-    found.push_back({first.demo, first.gain, std::move(first.half_spaces)});
+    excluded.insert(first.start);
+    found.push_back({first.start, first.gain, std::move(first.half_spaces)});
   }
   return found;
 }

@@ -55,14 +55,14 @@ class SessionBytes {
     bytes_.count(lesson.source.member);
     bytes_.count(lesson.demonstrations.size());
     for (const auto& shown : lesson.demonstrations) {
-      bytes_.count(shown.demo.value());
+      bytes_.count(shown.start.value());
       half_spaces(shown.half_spaces);
       bytes_.real(shown.gain);
     }
     half_spaces(lesson.taught);
     bytes_.count(lesson.tests.size());
     for (const auto& test : lesson.tests) {
-      bytes_.count(test.demo.value());
+      bytes_.count(test.start.value());
       half_spaces(test.covered);
     }
     bytes_.flag(lesson.repeats);

@@ -129,7 +129,7 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
                                     spec.learner_counterfactuals_self ? spec.teaching.counterfactuals : 0};
     const auto& lesson = session.lesson();
     std::vector<StartIndex> tests;
-    for (const auto& test : lesson.tests) tests.push_back(test.demo);
+    for (const auto& test : lesson.tests) tests.push_back(test.start);
     for (std::size_t m = 0; m < taught.learners.size(); ++m) {
       const auto& learner = taught.learners[m];
       if (!learner) continue;

@@ -47,28 +47,28 @@ TEST(EndlessAnswers, AreRightWhereTheRobotNeverArrives) {
   const auto& atlas = *discounted_study()->atlas;
   std::size_t endless = 0;
   for (std::size_t i = 0; i < atlas.num_states(); ++i) {
-    const StartIndex demo{i};
-    const auto path = atlas.trajectory(demo);
+    const StartIndex start{i};
+    const auto path = atlas.trajectory(start);
     if (!path.repeats_from) {
-      EXPECT_FALSE(judged_path(atlas, demo, numbers_of(path), true).is_legal);
+      EXPECT_FALSE(judged_path(atlas, start, numbers_of(path), true).is_legal);
       continue;
     }
     ++endless;
     for (const std::size_t more : {0U, 1U, 3U}) {  // who goes round once more says the same
       const auto longer = written_out(path, path.actions.size() + more);
       if (longer.actions.size() > atlas.domain().max_steps()) continue;
-      const auto judged = judged_path(atlas, demo, numbers_of(longer), true);
+      const auto judged = judged_path(atlas, start, numbers_of(longer), true);
       ASSERT_TRUE(judged.is_legal && judged.is_finished);
-      EXPECT_EQ(judged.counts, atlas.feature_counts(demo));
+      EXPECT_EQ(judged.counts, atlas.feature_counts(start));
       EXPECT_FALSE(first_difference(judged.path, path));
     }
-    const auto stops = judged_path(atlas, demo, numbers_of(path));
+    const auto stops = judged_path(atlas, start, numbers_of(path));
     EXPECT_TRUE(stops.is_legal);
     EXPECT_FALSE(stops.is_finished);
     EXPECT_EQ(stops.counts, std::nullopt);
     auto too_short = numbers_of(path);
     too_short.pop_back();
-    EXPECT_FALSE(judged_path(atlas, demo, too_short, true).is_legal);
+    EXPECT_FALSE(judged_path(atlas, start, too_short, true).is_legal);
   }
   EXPECT_GE(endless, 1000U);
 }
@@ -79,8 +79,8 @@ TEST(EndlessAnswers, CountTheCycleAsOftenAsItIsGoneRound) {
     const Atlas atlas{testing::discounted_domain("item-delivery", discount)};
     auto random = RandomStream{5}.split("walks");
     for (int walk = 0; walk < 300; ++walk) {
-      const StartIndex demo{uniform_index(atlas.num_states(), random)};
-      const auto [world, start] = atlas.id(demo);
+      const StartIndex start_index{uniform_index(atlas.num_states(), random)};
+      const auto [world, start] = atlas.id(start_index);
       const auto& mdp = atlas.domain().mdp(world);
       std::vector<std::size_t> actions;
       std::set<StateIndex> met;
@@ -92,14 +92,14 @@ TEST(EndlessAnswers, CountTheCycleAsOftenAsItIsGoneRound) {
         at = mdp.outcomes(choice).front().next;
       }
       if (mdp.is_terminal(at) || actions.size() > atlas.domain().max_steps()) continue;
-      const auto judged = judged_path(atlas, demo, actions, true);
+      const auto judged = judged_path(atlas, start_index, actions, true);
       ASSERT_TRUE(judged.is_finished && judged.counts);
       const auto features = path_features(mdp, judged.path);
       for (std::size_t k = 0; k < features.size(); ++k) {
         const auto scale = static_cast<double>(atlas.domain().count_scale());
         EXPECT_NEAR(static_cast<double>((*judged.counts)[k]) / scale, features[k], 1e-6);
       }
-      EXPECT_LE(return_of(atlas, *judged.counts), return_of(atlas, atlas.feature_counts(demo)) + 1e-6);
+      EXPECT_LE(return_of(atlas, *judged.counts), return_of(atlas, atlas.feature_counts(start_index)) + 1e-6);
     }
   }
 }
@@ -107,8 +107,8 @@ TEST(EndlessAnswers, CountTheCycleAsOftenAsItIsGoneRound) {
 // Round the last loop, not the first one.
 TEST(EndlessAnswers, GoOnFromTheLastTimeInTheSameState) {
   const auto& atlas = *discounted_study()->atlas;
-  const StartIndex demo{0};
-  const auto [world, start] = atlas.id(demo);
+  const StartIndex start_index{0};
+  const auto [world, start] = atlas.id(start_index);
   const auto& mdp = atlas.domain().mdp(world);
   // There and back by every action that can be undone.
   std::vector<std::size_t> actions;
@@ -121,13 +121,13 @@ TEST(EndlessAnswers, GoOnFromTheLastTimeInTheSameState) {
     }
   }
   ASSERT_GE(actions.size(), 4U);
-  EXPECT_EQ(judged_path(atlas, demo, actions, true).path.repeats_from, actions.size() - 2);
+  EXPECT_EQ(judged_path(atlas, start_index, actions, true).path.repeats_from, actions.size() - 2);
 }
 
 TEST(EndlessAnswers, StopShortOfTheEndWithoutADiscount) {
   const auto& atlas = *testing::live_study()->atlas;
-  const StartIndex demo{0};
-  const auto [world, start] = atlas.id(demo);
+  const StartIndex start_index{0};
+  const auto [world, start] = atlas.id(start_index);
   const auto& mdp = atlas.domain().mdp(world);
   std::vector<std::size_t> round;
   for (const auto& choice : mdp.choices(start)) {
@@ -138,7 +138,7 @@ TEST(EndlessAnswers, StopShortOfTheEndWithoutADiscount) {
     }
   }
   ASSERT_EQ(round.size(), 2U);
-  const auto judged = judged_path(atlas, demo, round, true);
+  const auto judged = judged_path(atlas, start_index, round, true);
   EXPECT_TRUE(judged.is_legal);
   EXPECT_FALSE(judged.is_finished);
   EXPECT_EQ(judged.counts, std::nullopt);

@@ -87,8 +87,8 @@ Forks forks(double size, double scale, const std::string& normalize, RandomStrea
 }
 
 // The other way of a fork.
-std::size_t other_choice(const Atlas& atlas, StartIndex demo) {
-  return atlas.deviation_counts(demo, 0) == atlas.feature_counts(demo) ? 1 : 0;
+std::size_t other_choice(const Atlas& atlas, StartIndex start) {
+  return atlas.deviation_counts(start, 0) == atlas.feature_counts(start) ? 1 : 0;
 }
 
 std::shared_ptr<const LiveStudy> study_about(const std::shared_ptr<const Atlas>& atlas) {
@@ -97,7 +97,7 @@ std::shared_ptr<const LiveStudy> study_about(const std::shared_ptr<const Atlas>&
   const auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   auto study = *make_live_study(*reading.study, testing::atlas_of("two-goals"));
   study.atlas = atlas;
-  for (StartIndex demo{0}; demo.value() < atlas->num_states(); ++demo) study.screening.push_back(demo);
+  for (StartIndex start{0}; start.value() < atlas->num_states(); ++start) study.screening.push_back(start);
   return std::make_shared<const LiveStudy>(std::move(study));
 }
 
@@ -113,14 +113,14 @@ void expect_session_agrees(TeachingCache& cache, RandomStream random) {
     std::vector<Answer> answers;
     std::vector<bool> right;
     for (const auto& test : session.lesson().tests) {
-      const auto& robot = atlas.feature_counts(test.demo);
+      const auto& robot = atlas.feature_counts(test.start);
       // A random difference, its entries scaled so that the loss is about what is equal.
       IntegerVector path = robot;
       const auto size = std::ldexp(1.0, static_cast<int>(uniform_index(domain.is_exact() ? 3 : 24, random)));
       for (std::size_t k = 0; k < path.size(); ++k) path[k] += std::llround((2.0 * uniform01(random) - 1.0) * size);
       if (judge_path(domain, robot, path).is_better) path = robot + (robot - path);  // then it is worse
       right.push_back(judge_path(domain, robot, path).is_right);
-      EXPECT_EQ(grade_answer(atlas, test.demo, path).share_right, right.back() ? 1.0 : 0.0);
+      EXPECT_EQ(grade_answer(atlas, test.start, path).share_right, right.back() ? 1.0 : 0.0);
       answers.emplace_back(path);
     }
     session.answer(0, answers);
@@ -160,8 +160,8 @@ void expect_curriculum_agrees(TeachingCache& cache) {
   for (const auto& test : first.tests) {
     double right = 0.0;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
-      const auto answer = cache.behaviours().answer(test.demo, cache.behaviours().locate(Direction{points.col(i)}));
-      right += answer && judge_path(domain, atlas.feature_counts(test.demo), *answer).is_right ? 1.0 : 0.0;
+      const auto answer = cache.behaviours().answer(test.start, cache.behaviours().locate(Direction{points.col(i)}));
+      right += answer && judge_path(domain, atlas.feature_counts(test.start), *answer).is_right ? 1.0 : 0.0;
     }
     EXPECT_DOUBLE_EQ(test.share_right, right / static_cast<double>(points.cols()));
   }
@@ -181,21 +181,21 @@ TEST(Judge, IsTheSameForTestsExamsScreeningAndLessonsAboutNearTies) {
       play.join(1);
       ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", play.study().group().consent_version}}), "");
       ASSERT_EQ(play.seat(1, "checked"), "");
-      for (StartIndex demo{0}; demo.value() < atlas->num_states(); ++demo) {
-        const auto choice = other_choice(*atlas, demo);
-        const auto other = atlas->deviation_counts(demo, choice);
-        const auto judged = judge_path(domain, atlas->feature_counts(demo), other);
-        const double factor = made.factors[atlas->id(demo).start.value()];
-        if (demo.value() >= kClear) {
+      for (StartIndex start{0}; start.value() < atlas->num_states(); ++start) {
+        const auto choice = other_choice(*atlas, start);
+        const auto other = atlas->deviation_counts(start, choice);
+        const auto judged = judge_path(domain, atlas->feature_counts(start), other);
+        const double factor = made.factors[atlas->id(start).start.value()];
+        if (start.value() >= kClear) {
           EXPECT_EQ(judged.is_right, factor <= 1.0) << factor;
         }
         EXPECT_FALSE(judged.is_better);
         EXPECT_EQ(judged.regret == 0.0, judged.is_right);
-        EXPECT_EQ(grade_answer(*atlas, demo, other),
+        EXPECT_EQ(grade_answer(*atlas, start, other),
                   (Grade{judged.is_right ? 1.0 : 0.0, judged.is_right ? 0.0 : judged.raw_regret}));
-        const auto action = domain.mdp(MdpIndex{0}).choices(atlas->id(demo).start)[choice].action;
+        const auto action = domain.mdp(MdpIndex{0}).choices(atlas->id(start).start)[choice].action;
         ASSERT_EQ(
-            play.seat(1, "screen", {{"test", demo.value()}, {"actions", Json::array({action.value()})}, {"ms", 5}}),
+            play.seat(1, "screen", {{"test", start.value()}, {"actions", Json::array({action.value()})}, {"ms", 5}}),
             "");
         EXPECT_EQ(screened(play), judged.is_right) << factor;
       }
@@ -218,11 +218,11 @@ TEST(Judge, IsTheSameForTestsExamsLessonsAndTablesOfExactDomains) {
     RandomStream random = RandomStream{37}.split(name);
     for (int i = 0; i < 3000; ++i) {
       const PolicyCellIndex cell{uniform_index(atlas->tables().cells().size(), random)};
-      const StartIndex demo{uniform_index(atlas->num_states(), random)};
-      const auto answer = atlas->tables().answer(demo, cell);
-      const bool is_right = answer && judge_path(atlas->domain(), atlas->feature_counts(demo), *answer).is_right;
-      EXPECT_EQ(table.is_right(cell, atlas->tables().hull(demo)), is_right);
-      EXPECT_EQ(grade_answer(*atlas, demo, answer).share_right, is_right ? 1.0 : 0.0);
+      const StartIndex start{uniform_index(atlas->num_states(), random)};
+      const auto answer = atlas->tables().answer(start, cell);
+      const bool is_right = answer && judge_path(atlas->domain(), atlas->feature_counts(start), *answer).is_right;
+      EXPECT_EQ(table.is_right(cell, atlas->tables().hull(start)), is_right);
+      EXPECT_EQ(grade_answer(*atlas, start, answer).share_right, is_right ? 1.0 : 0.0);
     }
   }
 }

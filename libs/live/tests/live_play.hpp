@@ -152,9 +152,9 @@ class Play {
     ASSERT_EQ(seat(number, "consent", {{"accept", true}, {"version", study_->group().consent_version}}), "");
     ASSERT_EQ(seat(number, "checked"), "");
     for (std::size_t t = 0; room_.stage_of(number) == "screening"; ++t) {
-      const auto demo = study_->screening[t];
-      Json body{{"test", t}, {"actions", right_path(demo)}, {"ms", 5}};
-      if (expected_path(*study_->atlas, demo).repeats_from) body["for_ever"] = true;
+      const auto start_index = study_->screening[t];
+      Json body{{"test", t}, {"actions", right_path(start_index)}, {"ms", 5}};
+      if (expected_path(*study_->atlas, start_index).repeats_from) body["for_ever"] = true;
       ASSERT_EQ(seat(number, "screen", std::move(body)), "");
     }
   }
@@ -173,9 +173,9 @@ class Play {
   void answer(std::size_t number, bool right = true) {
     while (room_.stage_of(number) == "predict") {
       const auto t = room_.view({Viewer::Role::kParticipant, number}, now_us_)["predict"]["index"].get<std::size_t>();
-      const auto demo = room_.session().lesson().tests[t].demo;
-      Json body{{"test", t}, {"actions", right ? right_path(demo) : wrong_path(demo)}, {"ms", 1000}};
-      if (right && expected_path(*study_->atlas, demo).repeats_from) body["for_ever"] = true;
+      const auto start_index = room_.session().lesson().tests[t].start;
+      Json body{{"test", t}, {"actions", right ? right_path(start_index) : wrong_path(start_index)}, {"ms", 1000}};
+      if (right && expected_path(*study_->atlas, start_index).repeats_from) body["for_ever"] = true;
       ASSERT_EQ(seat(number, "answer", std::move(body)), "");
     }
   }
@@ -208,15 +208,15 @@ class Play {
     }
   }
 
-  [[nodiscard]] Json right_path(StartIndex demo) const {
+  [[nodiscard]] Json right_path(StartIndex start_index) const {
     Json actions = Json::array();
-    for (const auto action : expected_path(*study_->atlas, demo).actions) actions.push_back(action.value());
+    for (const auto action : expected_path(*study_->atlas, start_index).actions) actions.push_back(action.value());
     return actions;
   }
   /// Another first action, from where the robot goes on as it would; worse than the robot's own path.
-  [[nodiscard]] Json wrong_path(StartIndex demo) const {
+  [[nodiscard]] Json wrong_path(StartIndex start_index) const {
     const auto& atlas = *study_->atlas;
-    const auto [world, start] = atlas.id(demo);
+    const auto [world, start] = atlas.id(start_index);
     const auto& mdp = atlas.domain().mdp(world);
     for (const auto& choice : mdp.choices(start)) {
       const auto next = mdp.outcomes(choice).front().next;
@@ -225,9 +225,9 @@ class Play {
       for (const auto action : atlas.trajectory(atlas.index({world, next})).actions) actions.push_back(action.value());
       std::vector<std::size_t> list;
       for (const auto& action : actions) list.push_back(action.get<std::size_t>());
-      const auto judged = judged_path(atlas, demo, list);
+      const auto judged = judged_path(atlas, start_index, list);
       if (!judged.counts) continue;
-      if (atlas.domain().weights().return_of(atlas.feature_counts(demo) - *judged.counts) > 1e-3) return actions;
+      if (atlas.domain().weights().return_of(atlas.feature_counts(start_index) - *judged.counts) > 1e-3) return actions;
     }
     return Json::array();  // stops at once
   }

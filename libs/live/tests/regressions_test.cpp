@@ -163,7 +163,7 @@ TEST(PlayRegression, WhoReturnsFindsTheirHalfDrawnPath) {
   Play play{live_study()};
   play.start(3);
   for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
-  auto path = play.right_path(play.room().session().lesson().tests.front().demo);
+  auto path = play.right_path(play.room().session().lesson().tests.front().start);
   path.erase(path.end() - 1);
   ASSERT_EQ(play.seat(1, "draft", {{"test", 0}, {"actions", path}}), "");
   ASSERT_EQ(play.send("server", "away", {{"seat", 1}}), "");

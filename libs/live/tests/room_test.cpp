@@ -64,8 +64,8 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   play.watch(3);
   EXPECT_EQ(play.room().stage_of(2), "predict");
 
-  const auto demo = play.room().session().lesson().tests.front().demo;
-  const auto right = play.right_path(demo);
+  const auto start = play.room().session().lesson().tests.front().start;
+  const auto right = play.right_path(start);
   const Json part = Json::array({right[0]});
   ASSERT_EQ(play.seat(1, "draft", {{"test", 0}, {"actions", part}}), "");
   EXPECT_EQ(page(play, 1)["predict"]["draft"], part);
@@ -162,7 +162,7 @@ TEST(Room, AcceptsARepeatedMessageWithoutAnEvent) {
   EXPECT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}}), "");
   EXPECT_EQ(play.events().size(), events);
   for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
-  const auto path = play.right_path(play.room().session().lesson().tests.front().demo);
+  const auto path = play.right_path(play.room().session().lesson().tests.front().start);
   EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", path}, {"ms", 1}}), "");
   const auto after = play.events().size();
   EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", path}, {"ms", 1}}), "");
@@ -177,7 +177,7 @@ TEST(Room, RefusesAPathThatIsTooLongForWhatItIs) {
   for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
   const auto& study = play.study();
   const auto most = max_answer_actions(study.atlas->domain());
-  const auto id = study.atlas->id(play.room().session().lesson().tests.front().demo);
+  const auto id = study.atlas->id(play.room().session().lesson().tests.front().start);
   const auto next = world_json(study, id.mdp).at("next");
   // There and back again: up and down, or left and right.
   std::vector<std::size_t> back_and_forth;

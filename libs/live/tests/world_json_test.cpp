@@ -47,24 +47,24 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
   const auto& weights = atlas.domain().weights();
   std::size_t others = 0, circles = 0;
   for (std::size_t i = 0; i < atlas.num_states(); i += 1 + atlas.num_states() / 60) {
-    const StartIndex demo{i};
-    const auto robot = expected_path(atlas, demo);
+    const StartIndex start_index{i};
+    const auto robot = expected_path(atlas, start_index);
     std::vector<std::size_t> actions;
     for (const auto action : robot.actions) actions.push_back(action.value());
     if (actions.size() > max_answer_actions(atlas.domain())) continue;
-    const auto judged = judged_path(atlas, demo, actions);
+    const auto judged = judged_path(atlas, start_index, actions);
     if (!judged.is_finished || !judged.is_legal) {  // with chance the likeliest steps may lead round in a circle
-      ASSERT_FALSE(atlas.domain().mdp(atlas.id(demo).mdp).is_deterministic());
+      ASSERT_FALSE(atlas.domain().mdp(atlas.id(start_index).mdp).is_deterministic());
       ++circles;
       continue;
     }
-    EXPECT_EQ(judged.counts, atlas.feature_counts(demo));
+    EXPECT_EQ(judged.counts, atlas.feature_counts(start_index));
     EXPECT_EQ(judged.path, robot);
     actions.push_back(0);
-    EXPECT_FALSE(judged_path(atlas, demo, actions).is_legal);  // nothing happens after the end
+    EXPECT_FALSE(judged_path(atlas, start_index, actions).is_legal);  // nothing happens after the end
     // One other first action, and on as the robot would: the counts that the atlas has for it.
-    const auto world = atlas.id(demo).mdp;
-    const auto start = atlas.id(demo).start;
+    const auto world = atlas.id(start_index).mdp;
+    const auto start = atlas.id(start_index).start;
     const auto& mdp = atlas.domain().mdp(world);
     for (std::size_t c = 0; c < mdp.choices(start).size(); ++c) {
       const auto& choice = mdp.choices(start)[c];
@@ -77,14 +77,14 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
           other.push_back(action.value());
         }
       }
-      const auto counts = judged_path(atlas, demo, other).counts;
+      const auto counts = judged_path(atlas, start_index, other).counts;
       if (!counts) continue;
-      const auto expected = atlas.deviation_counts(demo, c);
+      const auto expected = atlas.deviation_counts(start_index, c);
       const auto scale = static_cast<double>(atlas.domain().count_scale());
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_NEAR(static_cast<double>((*counts)[k]) / scale, static_cast<double>(expected[k]) / scale, 1e-5);
       }
-      EXPECT_GE(weights.return_of(atlas.feature_counts(demo) - *counts) / scale, -1e-6);
+      EXPECT_GE(weights.return_of(atlas.feature_counts(start_index) - *counts) / scale, -1e-6);
       ++others;
     }
   }
@@ -99,13 +99,13 @@ TEST_P(WorldTables, TellPagesHowLongAPathMayBe) {
   auto random = RandomStream{5}.split("walks");
   std::size_t longest = 0;
   for (int walk = 0; walk < 20; ++walk) {
-    const StartIndex demo{uniform_index(atlas.num_states(), random)};
-    const auto world = atlas.id(demo).mdp;
+    const StartIndex start{uniform_index(atlas.num_states(), random)};
+    const auto world = atlas.id(start).mdp;
     const auto table = world_json(*study, world);
     const auto most = table.at("max_actions").get<std::size_t>();
     ASSERT_EQ(most, std::min<std::size_t>(500, atlas.domain().max_steps()));
     std::vector<std::size_t> path;
-    auto state = world_state(*study, world, atlas.id(demo).start).value();
+    auto state = world_state(*study, world, atlas.id(start).start).value();
     while (path.size() <= most) {
       std::vector<std::size_t> possible, before_the_end;
       const auto& next = table["next"][state];
@@ -118,7 +118,7 @@ TEST_P(WorldTables, TellPagesHowLongAPathMayBe) {
       if (choice.empty()) break;
       path.push_back(choice[uniform_index(choice.size(), random)]);
       state = next[path.back()].get<std::size_t>();
-      const auto judged = judged_path(atlas, demo, path);
+      const auto judged = judged_path(atlas, start, path);
       ASSERT_EQ(judged.is_legal, path.size() <= most);
       ASSERT_EQ(judged.is_too_long, path.size() > most);
     }
@@ -217,9 +217,9 @@ TEST(LiveStudy, NeverAsksWhereTheLikeliestStepsDoNotEnd) {
   std::size_t left_out = 0, kept = 0;
   for (ConstraintIndex c{0}; c.value() < all->constraints().size(); ++c) {
     const auto tests = asked->atlas->tests_for(c);
-    for (const auto demo : all->tests_for(c)) {
-      const bool is_asked = std::find(tests.begin(), tests.end(), demo) != tests.end();
-      EXPECT_EQ(is_asked, answerable_path(*all, demo).has_value());
+    for (const auto start : all->tests_for(c)) {
+      const bool is_asked = std::find(tests.begin(), tests.end(), start) != tests.end();
+      EXPECT_EQ(is_asked, answerable_path(*all, start).has_value());
       ++(is_asked ? kept : left_out);
     }
   }

@@ -22,7 +22,7 @@ struct LessonOfPeriod {
   std::vector<StartIndex> shown;
   std::vector<std::string> conveyed;  // "-1 0 2"
   struct Test {
-    StartIndex demo;
+    StartIndex start;
     std::map<std::size_t, bool> right;  // by member
   };
   std::map<std::size_t, Test> tests;        // by number
@@ -75,7 +75,7 @@ class LessonReader {
          columns::kCorrect},
         [&](const RecordRow& row, const ResponseRecord& response, TeamLessons& team) {
           auto& test = lesson_of(row, response, team, session_of(row, response.member)).tests[response.test];
-          test.demo = start_of(row, response);
+          test.start = start_of(row, response);
           test.right[response.member] = response.correct;
         });
     read_table<ProgressRecord>(
@@ -157,7 +157,7 @@ class LessonWriter {
   // [period, component, member or 0, shown boards, conveyed sentences, [[board, "10-"]], [knowledge in hundredths]]
   Json period_json(std::size_t session, std::size_t period, const TeamAddress& address, const LessonOfPeriod& lesson) {
     Json shown = Json::array(), says = Json::array(), tests = Json::array(), knowledge = Json::array();
-    for (const auto demo : lesson.shown) shown.push_back(board(demo));
+    for (const auto start : lesson.shown) shown.push_back(board(start));
     for (const auto& normal : lesson.conveyed) says.push_back(sentence(normal));
     const auto first = session == 0 ? std::size_t{1} : session,
                last = session == 0 ? address.composition.size() : session;
@@ -167,7 +167,7 @@ class LessonWriter {
         const auto found = test.right.find(member);
         right += found == test.right.end() ? '-' : found->second ? '1' : '0';
       }
-      tests.push_back(Json::array({board(test.demo), right}));
+      tests.push_back(Json::array({board(test.start), right}));
     }
     for (auto member = first; member <= last; ++member) {
       const auto found = lesson.knowledge.find(member);
@@ -177,11 +177,11 @@ class LessonWriter {
         {period, lesson.component, session, std::move(shown), std::move(says), std::move(tests), std::move(knowledge)});
   }
 
-  std::size_t board(StartIndex demo) {
-    const auto [entry, is_new] = known_boards_.emplace(demo, boards_.size());
+  std::size_t board(StartIndex start) {
+    const auto [entry, is_new] = known_boards_.emplace(start, boards_.size());
     if (is_new) {
-      const auto id = atlas_.id(demo);
-      const auto path = atlas_.trajectory(demo);
+      const auto id = atlas_.id(start);
+      const auto path = atlas_.trajectory(start);
       auto json = board_json(domain_, id);
       json.update(path_json(domain_, id.mdp, path));
       json["text"] = actions_text(domain_, id.mdp, path);

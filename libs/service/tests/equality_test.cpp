@@ -48,7 +48,7 @@ TEST(OneEngine, TeachesStandInsOfARoomLikeTheTeamOfAStudy) {
       EXPECT_EQ(lesson.gain, record.period_records[i].gain);
       EXPECT_EQ(lesson.area_sr, record.period_records[i].area_sr);
       for (const auto& demonstration : lesson.demonstrations) {
-        const auto id = study->atlas->id(demonstration.demo);
+        const auto id = study->atlas->id(demonstration.start);
         EXPECT_EQ(id.mdp.value(), record.demonstration_records[shown].mdp);
         EXPECT_EQ(id.start.value(), record.demonstration_records[shown].start);
         ++shown;

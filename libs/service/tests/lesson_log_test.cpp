@@ -70,7 +70,7 @@ Json log_of(const SessionStudy& session, bool more = false) {
   ask("server", "present", {{"seat", 1}});
   ask("seat:1", "consent", {{"accept", true}, {"version", session.study->group().consent_version}});
   ask("seat:1", "checked", Json::object());
-  for (std::size_t demo = 0; room.stage_of(1) == "watch"; ++demo) ask("seat:1", "watched", {{"demo", demo}});
+  for (std::size_t start = 0; room.stage_of(1) == "watch"; ++start) ask("seat:1", "watched", {{"demo", start}});
   if (more) ask("seat:1", "answer", {{"test", 0}, {"actions", Json::array()}, {"keys", Json::array()}, {"ms", 5}});
   return {{"schema", "kith.lesson-log/1"}, {"kith", "kith test"},     {"study", session.digest},
           {"inputs", session.inputs},      {"setup", to_json(setup)}, {"events", events},

@@ -20,7 +20,7 @@ struct AnswerTables : RoomExport {
       const auto* lesson_row = answer != nullptr ? &history.lessons[answer->lesson] : history.lesson_of(test.period);
       if (lesson_row == nullptr || test.test >= lesson_row->lesson.tests.size()) continue;
       const auto& lesson = lesson_row->lesson;
-      const auto place = study.atlas->id(lesson.tests[test.test].demo);
+      const auto place = study.atlas->id(lesson.tests[test.test].start);
       const auto* person = history.person_in(test.period, test.member);
       const bool counts = !lesson_row->is_replaced && person != nullptr && person->seat == test.seat;
       const auto* judged = counts ? history.verdict(test.period, test.member, test.test) : nullptr;

@@ -94,8 +94,8 @@ void erase_deed(const std::string& type, Json& body, const RoomEvent& event, con
   const auto* answer = event.get<happening::Answered>();
   const bool was_seen = answer != nullptr && study.group().discussion.choice.is_held();
   if (answer != nullptr && !was_seen && answer->erased.is_null()) {
-    const auto demo = room.session().lesson().tests.at(answer->test).demo;
-    const auto judged = judged_path(*study.atlas, demo, answer->actions, answer->for_ever);
+    const auto start = room.session().lesson().tests.at(answer->test).start;
+    const auto judged = judged_path(*study.atlas, start, answer->actions, answer->for_ever);
     body["erased"] = {{"finished", judged.is_finished}, {"counts", judged.counts ? to_json(*judged.counts) : Json{}}};
   }
   if (body.contains("actions") && !was_seen) body["actions"] = Json::array();

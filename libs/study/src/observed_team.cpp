@@ -56,7 +56,7 @@ class Observations {
     const auto last = everybody ? people_.size() : shown.member;
     for (auto member = first; member <= last; ++member) {
       at(member, shown.period, shown.component)
-          .demonstrations.push_back({.demo = start_of(atlas_, shown.mdp, shown.start),
+          .demonstrations.push_back({.start = start_of(atlas_, shown.mdp, shown.start),
                                      .half_spaces = shown.constraints,
                                      .counterfactuals = {}});
     }
@@ -64,7 +64,7 @@ class Observations {
 
   void add(const ResponseRecord& response) {
     auto& period = at(response.member, response.period, response.component);
-    period.tests.push_back({.demo = start_of(atlas_, response.mdp, response.start), .covered = response.covered});
+    period.tests.push_back({.start = start_of(atlas_, response.mdp, response.start), .covered = response.covered});
     period.answers.push_back(response.answer);
     period.verdicts.push_back({.correct = response.correct,
                                .regret = response.regret.value_or(0.0),

@@ -121,8 +121,8 @@ void TeamExaminer::ask(const Session& session, const Learners& learners, std::ve
                        std::size_t member) {
   std::vector<StartIndex> seen;
   for (const auto& period : session.history()) {
-    for (const auto& shown : period.lesson.demonstrations) seen.push_back(shown.demo);
-    for (const auto& test : period.lesson.tests) seen.push_back(test.demo);
+    for (const auto& shown : period.lesson.demonstrations) seen.push_back(shown.start);
+    for (const auto& test : period.lesson.tests) seen.push_back(test.start);
   }
   const auto random = team_stream(spec_, record_.address).split("exam").split(member);
   const auto questions = cache_.exam().questions(spec_.exam_questions, seen, random);

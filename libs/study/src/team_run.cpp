@@ -229,7 +229,7 @@ class TeamRun {
     if (everybody) watched = {0};
     std::size_t number = 0;
     for (const auto& shown : lesson.demonstrations) {
-      const auto id = atlas_.id(shown.demo);
+      const auto id = atlas_.id(shown.start);
       ++number;
       for (const auto member : watched) {
         record_.demonstration_records.push_back({.period = lesson.period,
@@ -265,7 +265,7 @@ class TeamRun {
   void write_answers(ResponseRecord record, std::span<const Test> tests, const std::vector<Answer>& answers,
                      const std::vector<Verdict>& verdicts) {
     for (std::size_t t = 0; t < tests.size(); ++t) {
-      const auto id = atlas_.id(tests[t].demo);
+      const auto id = atlas_.id(tests[t].start);
       record.test = t + 1;
       record.mdp = id.mdp.value();
       record.start = id.start.value();

@@ -96,15 +96,15 @@ class Converter {
     const auto& lesson = period.lesson;
     Json demonstrations = Json::array();
     for (const auto& shown : lesson.demonstrations) {
-      auto demo = path_to_json(shown.demo);
-      demo["conveys"] = kith::to_json(shown.half_spaces, d_);
-      demo["gain"] = shown.gain;
-      demo["new_constraints"] = shown.num_new;
-      demonstrations.push_back(std::move(demo));
+      auto start = path_to_json(shown.start);
+      start["conveys"] = kith::to_json(shown.half_spaces, d_);
+      start["gain"] = shown.gain;
+      start["new_constraints"] = shown.num_new;
+      demonstrations.push_back(std::move(start));
     }
     Json tests = Json::array();
     for (std::size_t t = 0; t < lesson.tests.size(); ++t) {
-      auto test = path_to_json(lesson.tests[t].demo);
+      auto test = path_to_json(lesson.tests[t].start);
       test["covers"] = kith::to_json(lesson.tests[t].covered, d_);
       test["exact"] = lesson.tests[t].exact;
       Json answers = Json::array();
@@ -160,10 +160,10 @@ class Converter {
             {"done_after", done}};
   }
 
-  [[nodiscard]] Json path_to_json(StartIndex demo) const {
-    const auto& counts = atlas_.feature_counts(demo);
-    Json json{{"start", start_to_json(domain_, atlas_.id(demo))}};
-    json.update(actions_json(domain_, atlas_.trajectory(demo)));
+  [[nodiscard]] Json path_to_json(StartIndex start) const {
+    const auto& counts = atlas_.feature_counts(start);
+    Json json{{"start", start_to_json(domain_, atlas_.id(start))}};
+    json.update(actions_json(domain_, atlas_.trajectory(start)));
     json["features"] = counts_to_json(domain_, counts);
     json["return"] = return_of(domain_, counts);
     return json;
@@ -178,7 +178,7 @@ class Converter {
       json["regret"] = in_file_units(domain_.weights(), verdict.regret);
       json["features"] = kith::to_json(counts);
       const auto path = response.weights
-                            ? path_of_answer(atlas_, period.lesson.tests[t].demo, counts, *response.weights)
+                            ? path_of_answer(atlas_, period.lesson.tests[t].start, counts, *response.weights)
                             : std::nullopt;
       if (path) json.update(actions_json(domain_, *path));
     }

@@ -159,9 +159,9 @@ class TranscriptWriter {
 
   // @param is_for_everybody  whether the lesson was chosen as a whole, by what all members are expected to make of it.
   void demonstration(std::size_t number, const Demonstration& shown, bool is_for_everybody) {
-    const auto id = atlas_.id(shown.demo);
-    const auto path = atlas_.trajectory(shown.demo);
-    const auto& counts = atlas_.feature_counts(shown.demo);
+    const auto id = atlas_.id(shown.start);
+    const auto path = atlas_.trajectory(shown.start);
+    const auto& counts = atlas_.feature_counts(shown.start);
     line();
     line(fmt::format("  Demonstration {}: {}", number, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
@@ -193,13 +193,13 @@ class TranscriptWriter {
 
   void test(const TranscriptPeriod& period, std::size_t t) {
     const auto& asked = period.lesson.tests[t];
-    const auto id = atlas_.id(asked.demo);
-    const auto path = atlas_.trajectory(asked.demo);
+    const auto id = atlas_.id(asked.start);
+    const auto path = atlas_.trajectory(asked.start);
     line();
     line(fmt::format("  Test {}: {}; what would the robot do?", t + 1, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
     line("    the robot: " + actions_text(domain_, id.mdp, path) + chance(id, path) + " (" +
-         counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
+         counts_text(domain_, atlas_.feature_counts(asked.start)) + ")");
     for (const auto& half_space : asked.covered) {
       line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the closest possible test)"));
     }
@@ -231,10 +231,10 @@ class TranscriptWriter {
       return;
     }
     const auto& counts = *response.answers[t];
-    const auto demo = period.lesson.tests[t].demo;
-    const auto path = response.weights ? path_of_answer(atlas_, demo, counts, *response.weights) : std::nullopt;
+    const auto start = period.lesson.tests[t].start;
+    const auto path = response.weights ? path_of_answer(atlas_, start, counts, *response.weights) : std::nullopt;
     const auto described_path =
-        path ? actions_text(domain_, atlas_.id(demo).mdp, *path) + " (" + counts_text(domain_, counts) + ")"
+        path ? actions_text(domain_, atlas_.id(start).mdp, *path) + " (" + counts_text(domain_, counts) + ")"
              : counts_text(domain_, counts);
     line(fmt::format("    member {}: {}: {}", members_[i], judged(verdict), described_path));
     const std::string shows = verdict.correct ? "evidence that they know " : "evidence that they believe ";

@@ -96,7 +96,7 @@ bool shows(TeachingCache& cache, const HalfSpace& constraint, const ObservedPeri
     for (std::size_t i = 0; i < cover.size() && !could_know; ++i) {
       if (!constraint.contains(cover.point(i))) continue;
       const auto cell = cache.behaviours().locate(cover.point(i));
-      could_know = cache.behaviours().answer(period.tests[t].demo, cell) == period.answers[t];
+      could_know = cache.behaviours().answer(period.tests[t].start, cell) == period.answers[t];
     }
     if (!could_know) return true;
   }
@@ -229,7 +229,7 @@ TEST_F(AuditOfOneTeam, SaysWhatThePersonThinksAndWhatToDo) {
     const auto period = std::find_if(people_[0].begin(), people_[0].end(),
                                      [&](const auto& one) { return one.period == answer.period; });
     ASSERT_NE(period, people_[0].end());
-    EXPECT_EQ(period->tests[answer.test - 1].demo, answer.demo);
+    EXPECT_EQ(period->tests[answer.test - 1].start, answer.start);
     EXPECT_FALSE(period->verdicts[answer.test - 1].correct);
   }
   ASSERT_TRUE(found.show.has_value());

@@ -105,14 +105,14 @@ TEST(JudgedPeople, WhoHaveNoRightAnswerAreNotSaidToUnderstand) {
       std::size_t tests = 0;
       for (auto& period : observed[m]) {
         for (std::size_t t = 0; t < period.tests.size(); ++t) {
-          const auto demo = period.tests[t].demo;
-          auto losses = item_delivery().tables().hull(item_delivery().tables().hull(demo)).losses;
+          const auto start = period.tests[t].start;
+          auto losses = item_delivery().tables().hull(item_delivery().tables().hull(start)).losses;
           std::erase_if(losses, [](const auto& one) { return !costs(one); });
           ASSERT_FALSE(losses.empty());
           auto loss = losses[uniform_index(losses.size(), random)];
           // Some of the paths are best for nobody: all of them, none or half.
           if (m == 0 || (m > 1 && uniform01(random) < 0.5)) loss[2] -= 2;
-          period.answers[t] = item_delivery().feature_counts(demo) - loss;
+          period.answers[t] = item_delivery().feature_counts(start) - loss;
           period.verdicts[t] = {.correct = false, .half_spaces = {HalfSpace{-loss}}};
         }
         period.all_correct = false;

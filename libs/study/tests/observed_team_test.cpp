@@ -76,12 +76,12 @@ TEST(ObservedPeople, AreThoseOfTheSession) {
         EXPECT_EQ(one.feedback, expected[p].feedback);
         ASSERT_EQ(one.demonstrations.size(), expected[p].demonstrations.size());
         for (std::size_t d = 0; d < one.demonstrations.size(); ++d) {
-          EXPECT_EQ(one.demonstrations[d].demo, expected[p].demonstrations[d].demo);
+          EXPECT_EQ(one.demonstrations[d].start, expected[p].demonstrations[d].start);
           EXPECT_EQ(one.demonstrations[d].half_spaces, expected[p].demonstrations[d].half_spaces);
         }
         ASSERT_EQ(one.tests.size(), expected[p].tests.size());
         for (std::size_t t = 0; t < one.tests.size(); ++t) {
-          EXPECT_EQ(one.tests[t].demo, expected[p].tests[t].demo);
+          EXPECT_EQ(one.tests[t].start, expected[p].tests[t].start);
           EXPECT_EQ(one.tests[t].covered, expected[p].tests[t].covered);
         }
       }

@@ -49,7 +49,7 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
       read_cells(tests[t], answer, test);
     } else {
       const auto examined =
-          atlas.constraints().half_spaces(atlas.tested_constraints(tests[t].demo).without(atlas.prior()));
+          atlas.constraints().half_spaces(atlas.tested_constraints(tests[t].start).without(atlas.prior()));
       test.examined = numbers_of(examined);
       if (verdicts[t].correct) answered_by = examined;
       test.by_nobody = is_impossible;
@@ -67,17 +67,17 @@ AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<
       guesses_[g].right = convolved(guesses_[g].right, std::vector{1.0 - right, right});
     }
     tests_.push_back(std::move(test));
-    if (answer) given_.push_back({tests[t].demo, *answer});
+    if (answer) given_.push_back({tests[t].start, *answer});
   }
 }
 
 // What people of each policy cell answer to a test.
 void AnswerFit::read_cells(const Test& asked, const Answer& answer, OneTest& test) {
   const auto& domain = atlas_->domain();
-  const auto hull = tables_->hull(asked.demo);
+  const auto hull = tables_->hull(asked.start);
   const auto& losses = tables_->hull(hull).losses;
   const auto given =
-      answer ? std::find(losses.begin(), losses.end(), atlas_->feature_counts(asked.demo) - *answer) : losses.end();
+      answer ? std::find(losses.begin(), losses.end(), atlas_->feature_counts(asked.start) - *answer) : losses.end();
   test.by_cell = given != losses.end();
   test.by_nobody = !test.by_cell;
   std::vector<bool> is_right;

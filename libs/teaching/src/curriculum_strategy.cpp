@@ -29,9 +29,9 @@ std::span<const Parameter> curriculum_parameters() { return kCurriculumParameter
 std::vector<StartIndex> CurriculumStrategy::candidates(const TeachingView& view) {
   const auto& component = view.atlas.knowledge_components()[view.component];
   std::vector<StartIndex> demos;
-  for (StartIndex demo{0}; demo.value() < view.atlas.num_states(); ++demo) {
-    if (!view.atlas.is_candidate(demo) || !component.uses_mdp[view.atlas.id(demo).mdp.value()]) continue;
-    if (!view.atlas.one_step(demo).empty()) demos.push_back(demo);
+  for (StartIndex start{0}; start.value() < view.atlas.num_states(); ++start) {
+    if (!view.atlas.is_candidate(start) || !component.uses_mdp[view.atlas.id(start).mdp.value()]) continue;
+    if (!view.atlas.one_step(start).empty()) demos.push_back(start);
   }
   return demos;
 }
@@ -52,11 +52,11 @@ UnitProposal CurriculumStrategy::propose(const TeachingView& view, UnitSelector&
   const auto ranked = ranking(view, random.split("ranking"));
   Unit unit;
   for (const bool again : {false, true}) {  // what was met already only if there is nothing else
-    for (const auto demo : ranked) {
-      if (view.visited.contains(demo) != again) continue;
+    for (const auto start : ranked) {
+      if (view.visited.contains(start) != again) continue;
       std::vector<StartIndex> demos;
-      for (const auto& shown : unit.demonstrations) demos.push_back(shown.demo);
-      demos.push_back(demo);
+      for (const auto& shown : unit.demonstrations) demos.push_back(shown.start);
+      demos.push_back(start);
       unit = unit_of(select.cache(), view, demos, people);
       if (unit.demonstrations.size() == most) return {SourceBelief::of_everybody(), std::move(unit)};
     }

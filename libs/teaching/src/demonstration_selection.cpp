@@ -142,14 +142,14 @@ class Selection {
     classes.reserve(prospects.size());
     for (const auto& prospect : prospects) classes.push_back(prospect.start_class);
     Demonstration best;
-    best.demo = simplest_of(atlas_, classes, visited_, unit, random);
+    best.start = simplest_of(atlas_, classes, visited_, unit, random);
     const auto chosen = std::find_if(prospects.begin(), prospects.end(), [&](const Prospect& prospect) {
-      return prospect.start_class == atlas_.start_class(best.demo);
+      return prospect.start_class == atlas_.start_class(best.start);
     });
     best.gain = chosen->gain;
     best.num_new = chosen->num_new;
     best.half_spaces =
-        cache_.constraints().half_spaces(cache_.regions().minimal(conveyed_.set(atlas_.start_class(best.demo))));
+        cache_.constraints().half_spaces(cache_.regions().minimal(conveyed_.set(atlas_.start_class(best.start))));
     return best;
   }
 
@@ -226,7 +226,7 @@ Unit select_demonstrations(TeachingCache& cache, const ParticleBelief& belief, c
     if (!next) break;
     next->counterfactuals.reserve(particles.size());
     for (const auto i : particles) next->counterfactuals.push_back(now.point(i));
-    visited.insert(next->demo);
+    visited.insert(next->start);
     taught = cache.regions().minimal(taught | cache.numbers_of(next->half_spaces));
     unit.demonstrations.push_back(std::move(*next));
   }
@@ -286,7 +286,7 @@ void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& c
   auto& regions = cache.regions();
   auto taught = regions.minimal(cache.numbers_of(unit.taught_region));
   auto shown = regions.minimal(taught | cache.numbers_of(shown_before));
-  for (const auto& demonstration : unit.demonstrations) visited.insert(demonstration.demo);
+  for (const auto& demonstration : unit.demonstrations) visited.insert(demonstration.start);
   const VisitedStarts nothing{cache.atlas().num_states()};
   Selection fresh{cache, component, visited};
   Selection any{cache, component, nothing};
@@ -319,7 +319,7 @@ void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& c
     next->num_new = effect.num_new;
     next->counterfactuals = std::move(people.weights);
     next->completes = true;
-    visited.insert(next->demo);
+    visited.insert(next->start);
     taught = regions.minimal(taught | conveyed);
     shown = regions.minimal(shown | conveyed);
     unit.demonstrations.push_back(std::move(*next));

@@ -49,10 +49,10 @@ Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
         if (table_->is_right(PolicyCellIndex{c}, HullIndex{h})) of_hull[h] += mass[c];
       }
     }
-    for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-      if (!atlas.is_candidate(demo)) continue;
-      starts.push_back(demo);
-      share_right.push_back(of_hull[tables->hull(demo).value()]);
+    for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+      if (!atlas.is_candidate(start)) continue;
+      starts.push_back(start);
+      share_right.push_back(of_hull[tables->hull(start).value()]);
     }
   } else {
     starts = sampled_starts(atlas);
@@ -70,10 +70,10 @@ Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {
 // Candidates of a few MDPs, every one as likely as any other of its MDP.
 std::vector<StartIndex> Exam::sampled_starts(const Atlas& atlas) const {
   std::vector<std::vector<StartIndex>> by_mdp;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    const auto mdp = atlas.id(demo).mdp.value();
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    const auto mdp = atlas.id(start).mdp.value();
     if (by_mdp.size() <= mdp) by_mdp.resize(mdp + 1);
-    if (atlas.is_candidate(demo)) by_mdp[mdp].push_back(demo);
+    if (atlas.is_candidate(start)) by_mdp[mdp].push_back(start);
   }
   std::erase_if(by_mdp, [](const auto& demos) { return demos.empty(); });
   const auto chance = [](const RandomStream& random, std::size_t i) { return random.split(i).address(); };

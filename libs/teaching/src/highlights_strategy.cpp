@@ -18,12 +18,12 @@ class Highlights : public CurriculumStrategy {
     struct Ranked {
       double importance;
       std::uint64_t chance;
-      StartIndex demo;
+      StartIndex start;
     };
     const auto random = RandomStream{0}.split("highlights");
     std::vector<Ranked> ranked;
-    for (const auto demo : candidates(view)) {
-      ranked.push_back({importance(view.atlas, demo), chance_of(demo, random), demo});
+    for (const auto start : candidates(view)) {
+      ranked.push_back({importance(view.atlas, start), chance_of(start, random), start});
     }
     std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
       return a.importance != b.importance ? a.importance > b.importance : a.chance < b.chance;
@@ -31,19 +31,19 @@ class Highlights : public CurriculumStrategy {
     std::vector<StartIndex> demos, others;
     std::set<std::size_t> mdps;
     for (const auto& candidate : ranked) {
-      const bool is_first = mdps.insert(view.atlas.id(candidate.demo).mdp.value()).second;
-      (is_first ? demos : others).push_back(candidate.demo);
+      const bool is_first = mdps.insert(view.atlas.id(candidate.start).mdp.value()).second;
+      (is_first ? demos : others).push_back(candidate.start);
     }
     demos.insert(demos.end(), others.begin(), others.end());
     return demos;
   }
 
-  static double importance(const Atlas& atlas, StartIndex demo) {
-    const auto id = atlas.id(demo);
+  static double importance(const Atlas& atlas, StartIndex start) {
+    const auto id = atlas.id(start);
     const auto& weights = atlas.domain().weights();
     double worst = 0.0;  // the best choice loses nothing
     for (std::size_t choice = 0; choice < atlas.domain().mdp(id.mdp).choices(id.start).size(); ++choice) {
-      worst = std::max(worst, weights.return_of(atlas.feature_counts(demo) - atlas.deviation_counts(demo, choice)));
+      worst = std::max(worst, weights.return_of(atlas.feature_counts(start) - atlas.deviation_counts(start, choice)));
     }
     return worst;
   }

@@ -27,7 +27,7 @@ std::vector<KindProbability> kinds_after(TeachingCache& cache, const TeachingOpt
     std::vector<StartIndex> demos;
     std::vector<HalfSpace> conveyed;
     for (const auto& shown : period.demonstrations) {
-      demos.push_back(shown.demo);
+      demos.push_back(shown.start);
       conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
     }
     bank.see(atlas, demos);

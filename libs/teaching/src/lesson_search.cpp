@@ -44,7 +44,7 @@ class LossOfImitation {
         wrong_(table.num_starts(), 0.0),
         weight_(table.num_starts(), 0.0) {
     for (const auto& period : history) {
-      for (const auto& shown : period.lesson.demonstrations) add(shown.demo);
+      for (const auto& shown : period.lesson.demonstrations) add(shown.start);
     }
   }
 
@@ -68,19 +68,19 @@ class LossOfImitation {
     constexpr std::size_t kCompared = 24;
     std::vector<StartIndex> fresh;
     for (const auto c : classes) {
-      for (const auto demo : atlas.members(c)) {
-        if (!met.contains(demo)) fresh.push_back(demo);
+      for (const auto start : atlas.members(c)) {
+        if (!met.contains(start)) fresh.push_back(start);
       }
     }
     const auto n = std::min(kCompared, fresh.size());
     StartIndex best;
     double least = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      const auto demo = fresh[i * fresh.size() / n];
-      const double wrong = with(demo);
+      const auto start = fresh[i * fresh.size() / n];
+      const double wrong = with(start);
       if (i > 0 && !(wrong < least)) continue;
       least = wrong;
-      best = demo;
+      best = start;
     }
     return best;
   }
@@ -144,7 +144,7 @@ class LessonSearch {
       auto longer = extended(lesson);
       if (!longer || (!lesson.shown.empty() && !is_worth(longer->ratio, lesson.ratio))) break;
       lesson = *std::move(longer);
-      if (imitation_) imitation_->add(lesson.shown.back().demo);
+      if (imitation_) imitation_->add(lesson.shown.back().start);
     }
     UnitProposal proposal{SourceBelief::of_everybody(), {}, {}};
     if (lesson.shown.empty()) return proposal;
@@ -152,8 +152,8 @@ class LessonSearch {
     const TestPreferences preferences{cache_, view_.visited, view_.options.avoids_shortest};
     for (const auto& chosen : lesson.tests) {
       Test test;
-      test.demo = test_to_ask(atlas_, starts_of(chosen, lesson), proposal.unit.demonstrations, random_.split("tests"),
-                              &preferences);
+      test.start = test_to_ask(atlas_, starts_of(chosen, lesson), proposal.unit.demonstrations, random_.split("tests"),
+                               &preferences);
       test.covered = cache_.constraints().half_spaces(chosen.covered);
       std::sort(test.covered.begin(), test.covered.end());
       proposal.tests.push_back(std::move(test));
@@ -256,17 +256,17 @@ class LessonSearch {
     const auto& met = is_new ? lesson.met : nothing;
     if (imitation_) return imitation_->best_of(atlas_, candidate.classes, met);
     std::vector<Demonstration> unit;
-    for (const auto& shown : lesson.shown) unit.emplace_back().demo = shown.demo;
+    for (const auto& shown : lesson.shown) unit.emplace_back().start = shown.start;
     return simplest_of(atlas_, candidate.classes, met, unit, random_.split("looks").split(unit.size()));
   }
 
   [[nodiscard]] Lesson with_tests(const Lesson& lesson, const Candidate& candidate) {
     Lesson longer{.shown = lesson.shown, .met = lesson.met, .product = lesson.product, .missed = lesson.missed};
-    const auto demo = start_of(candidate, lesson);
-    longer.shown.push_back({demo, candidate.conveyed, candidate.people});
-    longer.met.insert(demo);
+    const auto start_index = start_of(candidate, lesson);
+    longer.shown.push_back({start_index, candidate.conveyed, candidate.people});
+    longer.met.insert(start_index);
     longer.missed |= show(lesson, candidate.conveyed, longer.product, &longer.taken);
-    const double imitating = imitation_ ? imitation_->with(demo) : 0.0;
+    const double imitating = imitation_ ? imitation_->with(start_index) : 0.0;
     auto taught = known_;
     for (const auto& shown : longer.shown) taught |= shown.conveyed;
     const auto all = examined(cache_.regions().minimal(taught).without(atlas_.prior()).without(longer.missed), longer);
@@ -370,13 +370,13 @@ class LessonSearch {
     return starts;
   }
   [[nodiscard]] static bool is_of(const Lesson& lesson, StartIndex start) {
-    return std::ranges::any_of(lesson.shown, [&](const auto& shown) { return shown.demo == start; });
+    return std::ranges::any_of(lesson.shown, [&](const auto& shown) { return shown.start == start; });
   }
   // Whether people met what looks like it.
   [[nodiscard]] bool is_shown(const Lesson& lesson, StartIndex start) const {
     const auto looks = atlas_.trajectory_class(start);
     return is_shown_[looks] || std::ranges::any_of(lesson.shown, [&](const auto& shown) {
-             return atlas_.trajectory_class(shown.demo) == looks;
+             return atlas_.trajectory_class(shown.start) == looks;
            });
   }
 

@@ -11,7 +11,7 @@ Verdict verdict_on(const Atlas& atlas, const Test& test, const Answer& answer) {
   Verdict verdict;
   verdict.answered = answer.has_value();
   if (!answer) return verdict;
-  const auto judged = judge_path(atlas.domain(), atlas.feature_counts(test.demo), *answer);
+  const auto judged = judge_path(atlas.domain(), atlas.feature_counts(test.start), *answer);
   verdict.correct = judged.is_right;
   verdict.regret = judged.regret;
   auto preferred = preference(-judged.loss, atlas.domain().count_scale());  // of the answer to the robot's path
@@ -28,7 +28,7 @@ ObservedPeriod exam_board(const Atlas& atlas, StartIndex start, const Answer& an
   const auto covered = atlas.constraints().half_spaces(atlas.tested_constraints(start).without(atlas.prior()));
   ObservedPeriod board;
   board.period = period;
-  board.tests = {{.demo = start, .covered = covered}};
+  board.tests = {{.start = start, .covered = covered}};
   board.answers = {answer};
   board.verdicts = {verdict_on(atlas, board.tests.front(), answer)};
   board.all_correct = board.verdicts.front().correct;

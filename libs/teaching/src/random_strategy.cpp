@@ -16,10 +16,10 @@ class RandomDemonstrations : public CurriculumStrategy {
  private:
   [[nodiscard]] std::vector<StartIndex> ranking(const TeachingView& view, RandomStream random) const override {
     std::vector<std::pair<std::uint64_t, StartIndex>> shuffled;
-    for (const auto demo : candidates(view)) shuffled.emplace_back(chance_of(demo, random), demo);
+    for (const auto start : candidates(view)) shuffled.emplace_back(chance_of(start, random), start);
     std::sort(shuffled.begin(), shuffled.end());
     std::vector<StartIndex> demos;
-    for (const auto& [key, demo] : shuffled) demos.push_back(demo);
+    for (const auto& [key, start] : shuffled) demos.push_back(start);
     return demos;
   }
 };

@@ -167,7 +167,7 @@ void Session::show() {
 
 Verdict Session::judge(const Test& test, const Answer& answer) const {
   if (!answer) return verdict_on(*atlas_, test, answer);
-  const auto& robot = atlas_->feature_counts(test.demo);
+  const auto& robot = atlas_->feature_counts(test.start);
   if (answer->size() != robot.size()) {
     refuse("an answer has " + std::to_string(answer->size()) + " feature counts instead of " +
            std::to_string(robot.size()));

@@ -127,7 +127,7 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
 
   Lesson& lesson = next.lesson;
   if (!proposal.unit.demonstrations.empty()) {
-    for (const auto& shown : proposal.unit.demonstrations) next.visited.insert(shown.demo);
+    for (const auto& shown : proposal.unit.demonstrations) next.visited.insert(shown.start);
     describe(lesson, proposal.unit, cache);
     lesson.demonstrations = std::move(proposal.unit.demonstrations);
     next.taught_with_unit = std::move(proposal.unit.taught_region);
@@ -143,11 +143,11 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
   lesson.source = std::move(proposal.source);
   VisitedStarts demonstrated{atlas_->num_states()};
   for (const auto& period : history_) {
-    for (const auto& shown : period.lesson.demonstrations) demonstrated.insert(shown.demo);
+    for (const auto& shown : period.lesson.demonstrations) demonstrated.insert(shown.start);
   }
-  for (const auto& shown : lesson.demonstrations) demonstrated.insert(shown.demo);
+  for (const auto& shown : lesson.demonstrations) demonstrated.insert(shown.start);
   lesson.tests = std::move(proposal.tests);
-  for (const auto& test : lesson.tests) next.visited.insert(test.demo);
+  for (const auto& test : lesson.tests) next.visited.insert(test.start);
   const auto examined = lesson.tests.empty() ? to_examine(lesson, cache) : std::vector<HalfSpace>{};
   const TestPreferences preferences{cache, demonstrated, options_.avoids_shortest};
   for (std::size_t set = 0; !examined.empty() && set < options_.duplicate_sets; ++set) {
@@ -157,9 +157,9 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
     lesson.untested = choice.untested;
     lesson.tests.insert(lesson.tests.end(), choice.tests.begin(), choice.tests.end());
   }
-  for (auto& test : lesson.tests) test.is_shortest_wrong = cache.is_shortest_wrong(test.demo);
+  for (auto& test : lesson.tests) test.is_shortest_wrong = cache.is_shortest_wrong(test.start);
   lesson.tests_demonstrated = static_cast<std::size_t>(
-      std::ranges::count_if(lesson.tests, [&](const Test& test) { return demonstrated.contains(test.demo); }));
+      std::ranges::count_if(lesson.tests, [&](const Test& test) { return demonstrated.contains(test.start); }));
   return next;
 }
 

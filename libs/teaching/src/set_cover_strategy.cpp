@@ -51,18 +51,18 @@ class SetCover : public CurriculumStrategy {
   static std::vector<Alike> grouped(const TeachingView& view, const std::vector<ConstraintIndex>& wanted) {
     std::map<std::uint64_t, std::vector<std::pair<std::uint64_t, StartIndex>>> by_cover;
     const auto chance = RandomStream{0}.split("set cover");
-    for (const auto demo : candidates(view)) {
+    for (const auto start : candidates(view)) {
       std::uint64_t covered = 0;
       for (std::size_t i = 0; i < wanted.size(); ++i) {
-        if (view.atlas.one_step(demo).contains(wanted[i])) covered |= std::uint64_t{1} << i;
+        if (view.atlas.one_step(start).contains(wanted[i])) covered |= std::uint64_t{1} << i;
       }
-      if (covered != 0) by_cover[covered].emplace_back(chance_of(demo, chance), demo);
+      if (covered != 0) by_cover[covered].emplace_back(chance_of(start, chance), start);
     }
     std::vector<Alike> groups;
     for (auto& [covered, demos] : by_cover) {
       std::sort(demos.begin(), demos.end());
       auto& group = groups.emplace_back(Alike{covered, {}});
-      for (const auto& [key, demo] : demos) group.demos.push_back(demo);
+      for (const auto& [key, start] : demos) group.demos.push_back(start);
     }
     return groups;
   }

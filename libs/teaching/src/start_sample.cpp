@@ -15,7 +15,7 @@ constexpr double kSlack = 1e-9;  // in the sine of the angle to a boundary, wher
 // At most so many of them, each as likely as any other, ascending.
 std::vector<StartIndex> some_of(std::vector<StartIndex> starts, std::size_t most, const RandomStream& random) {
   if (starts.size() <= most) return starts;
-  const auto chance = [&](StartIndex demo) { return random.split(demo.value()).address(); };
+  const auto chance = [&](StartIndex start) { return random.split(start.value()).address(); };
   std::nth_element(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(most), starts.end(),
                    [&](StartIndex a, StartIndex b) { return chance(a) < chance(b); });
   starts.resize(most);
@@ -44,12 +44,12 @@ KITH_VECTOR_CLONES void add_all(const std::vector<char>& marks, std::vector<char
 StartSample StartSample::spread_over_starts(const Atlas& atlas, std::size_t component) {
   const auto& uses_mdp = atlas.knowledge_components()[component].uses_mdp;
   std::vector<StartIndex> starts;
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (atlas.is_candidate(demo) && uses_mdp[atlas.id(demo).mdp.value()]) starts.push_back(demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (atlas.is_candidate(start) && uses_mdp[atlas.id(start).mdp.value()]) starts.push_back(start);
   }
   starts = some_of(std::move(starts), kStarts, sample_stream());
   StartSample sample;
-  for (const auto demo : starts) sample.add(atlas, demo, 1.0);
+  for (const auto start : starts) sample.add(atlas, start, 1.0);
   sample.finish(atlas);
   return sample;
 }
@@ -59,26 +59,27 @@ StartSample StartSample::spread_over_facets(const Atlas& atlas, std::size_t comp
   StartSample sample;
   for (const auto facet : taught.constraints.members()) {
     std::vector<StartIndex> starts;
-    for (const auto demo : atlas.tests_for(facet)) {
-      if (taught.uses_mdp[atlas.id(demo).mdp.value()]) starts.push_back(demo);
+    for (const auto start : atlas.tests_for(facet)) {
+      if (taught.uses_mdp[atlas.id(start).mdp.value()]) starts.push_back(start);
     }
     starts = some_of(std::move(starts), kStartsPerFacet, sample_stream());
-    for (const auto demo : starts) sample.add(atlas, demo, 1.0 / static_cast<double>(starts.size()));
+    for (const auto start : starts) sample.add(atlas, start, 1.0 / static_cast<double>(starts.size()));
   }
   sample.finish(atlas);
   return sample;
 }
 
-void StartSample::add(const Atlas& atlas, StartIndex demo, double weight) {
-  const auto known = std::find_if(starts_.begin(), starts_.end(), [&](const Start& one) { return one.demo == demo; });
+void StartSample::add(const Atlas& atlas, StartIndex start_index, double weight) {
+  const auto known =
+      std::find_if(starts_.begin(), starts_.end(), [&](const Start& one) { return one.start == start_index; });
   if (known != starts_.end()) {
     known->weight += weight;
     return;
   }
   auto& start = starts_.emplace_back();
-  start.demo = demo;
+  start.start = start_index;
   start.weight = weight;
-  for (const auto c : atlas.tested_constraints(demo).members()) {
+  for (const auto c : atlas.tested_constraints(start_index).members()) {
     const auto at = std::find(constraints_.begin(), constraints_.end(), c);
     start.cell.push_back(static_cast<std::uint32_t>(at - constraints_.begin()));
     if (at == constraints_.end()) constraints_.push_back(c);

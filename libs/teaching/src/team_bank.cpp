@@ -48,7 +48,7 @@ void TeamBank::watch(const Atlas& atlas, const Lesson& lesson, const std::vector
   std::vector<HalfSpace> conveyed;
   std::vector<StartIndex> demos;
   for (const auto& shown : lesson.demonstrations) {
-    demos.push_back(shown.demo);
+    demos.push_back(shown.start);
     conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
   }
   LearnerBank::Changed begun, waited, seen, watched;

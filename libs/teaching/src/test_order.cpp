@@ -21,7 +21,7 @@ StartIndex test_to_ask(const Atlas& atlas, std::span<const StartIndex> starts, c
     const auto id = atlas.id(start);
     VisualKey key{-atlas.complexity(start), 0, 0};
     if (best_key && key.complexity > best_key->complexity) continue;
-    for (const auto& shown : unit) key.dissimilarity -= atlas.domain().dissimilarity(id, atlas.id(shown.demo));
+    for (const auto& shown : unit) key.dissimilarity -= atlas.domain().dissimilarity(id, atlas.id(shown.start));
     if (best_key && key > *best_key) continue;
     key.chance = chance_of(start, random);
     if (best_key && key >= *best_key) continue;

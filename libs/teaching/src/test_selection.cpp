@@ -39,7 +39,7 @@ class TestSelection {
         random_{random},
         preferences_{preferences},
         is_shown_(atlas.num_states(), false) {
-    for (const auto demo : visited.in_order()) is_shown_[atlas.trajectory_class(demo)] = true;
+    for (const auto start : visited.in_order()) is_shown_[atlas.trajectory_class(start)] = true;
   }
 
   TestChoice choose(const std::vector<HalfSpace>& taught) {
@@ -59,7 +59,7 @@ class TestSelection {
       choice.tests.push_back(std::move(*test));
     }
     for (auto one = open.rbegin(); one != open.rend(); ++one) choice.tests.push_back(covering_one(*one, taught));
-    for (const auto& test : choice.tests) visited_.insert(test.demo);
+    for (const auto& test : choice.tests) visited_.insert(test.start);
     return choice;
   }
 
@@ -85,56 +85,58 @@ class TestSelection {
       const std::pair rank{!same_features(other, constraint), -cosine(other, constraint)};
       if (nearest && !(rank < least)) continue;
       const auto demos = atlas_.tests_for(c);
-      if (std::none_of(demos.begin(), demos.end(), [&](StartIndex demo) { return is_in_component(demo); })) continue;
+      if (std::none_of(demos.begin(), demos.end(), [&](StartIndex start) { return is_in_component(start); })) continue;
       nearest = c;
       least = rank;
     }
     return nearest;
   }
 
-  [[nodiscard]] bool is_in_component(StartIndex demo) const { return component_.uses_mdp[atlas_.id(demo).mdp.value()]; }
+  [[nodiscard]] bool is_in_component(StartIndex start) const {
+    return component_.uses_mdp[atlas_.id(start).mdp.value()];
+  }
 
   [[nodiscard]] std::vector<StartIndex> usable(ConstraintIndex c) const {
     std::vector<StartIndex> found;
     auto least = Met::kDemonstrated;
-    for (const auto demo : atlas_.tests_for(c)) {
-      if (!is_in_component(demo)) continue;
-      const auto met = how_met(demo);
+    for (const auto start : atlas_.tests_for(c)) {
+      if (!is_in_component(start)) continue;
+      const auto met = how_met(start);
       if (met > least) continue;
       if (met < least) found.clear();
       least = met;
-      found.push_back(demo);
+      found.push_back(start);
     }
     return found;
   }
 
   // How people met what they are to be asked about: the less the better.
   enum class Met { kNever, kPicture, kTested, kDemonstrated };
-  [[nodiscard]] Met how_met(StartIndex demo) const {
-    if (!is_shown_[atlas_.trajectory_class(demo)]) return Met::kNever;
-    if (preferences_ == nullptr || preferences_->demonstrated.contains(demo)) return Met::kDemonstrated;
-    return visited_.contains(demo) ? Met::kTested : Met::kPicture;
+  [[nodiscard]] Met how_met(StartIndex start) const {
+    if (!is_shown_[atlas_.trajectory_class(start)]) return Met::kNever;
+    if (preferences_ == nullptr || preferences_->demonstrated.contains(start)) return Met::kDemonstrated;
+    return visited_.contains(start) ? Met::kTested : Met::kPicture;
   }
 
   // The start that tests most of the open constraints, if it tests at least two; they are closed.
   std::optional<Test> covering_several(std::vector<Candidates>& open) {
     std::uint32_t most = 2;
     for (const auto& candidates : open) {
-      for (const auto demo : candidates.demos) most = std::max(most, ++num_tested_[demo.value()]);
+      for (const auto start : candidates.demos) most = std::max(most, ++num_tested_[start.value()]);
     }
     std::vector<StartIndex> best;
     for (const auto& candidates : open) {
-      for (const auto demo : candidates.demos) {
-        if (num_tested_[demo.value()] == most) best.push_back(demo);
-        num_tested_[demo.value()] = 0;
+      for (const auto start : candidates.demos) {
+        if (num_tested_[start.value()] == most) best.push_back(start);
+        num_tested_[start.value()] = 0;
       }
     }
     if (best.empty()) return std::nullopt;
     std::sort(best.begin(), best.end());
     Test test;
-    test.demo = most_complex(best);
+    test.start = most_complex(best);
     std::erase_if(open, [&](const Candidates& candidates) {
-      if (!std::binary_search(candidates.demos.begin(), candidates.demos.end(), test.demo)) return false;
+      if (!std::binary_search(candidates.demos.begin(), candidates.demos.end(), test.start)) return false;
       test.covered.push_back(candidates.constraint);
       test.exact = test.exact && candidates.exact;
       return true;
@@ -145,9 +147,9 @@ class TestSelection {
   // A start for one constraint covers, in its feedback, all taught ones that its path shows.
   Test covering_one(const Candidates& candidates, const std::vector<HalfSpace>& taught) {
     Test test;
-    test.demo = most_complex(candidates.demos);
+    test.start = most_complex(candidates.demos);
     test.exact = candidates.exact;
-    const auto& shown = atlas_.one_step(test.demo);
+    const auto& shown = atlas_.one_step(test.start);
     for (const auto& constraint : taught) {
       const auto c = atlas_.constraints().find(constraint);
       if (constraint == candidates.constraint || (c && shown.contains(*c))) test.covered.push_back(constraint);

@@ -9,7 +9,7 @@ Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const Sho
   auto region = cache.numbers_of(view.taught_region);
   for (const auto& shown : demonstrations) {
     const auto effect = cache.regions().effect(region, shown.conveyed);
-    unit.demonstrations.push_back({.demo = shown.demo,
+    unit.demonstrations.push_back({.start = shown.start,
                                    .half_spaces = cache.constraints().half_spaces(shown.conveyed),
                                    .gain = effect.gain,
                                    .num_new = effect.num_new,
@@ -23,9 +23,9 @@ Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const Sho
 Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const StartIndex> demonstrations,
              const ImaginedPeople& people) {
   std::vector<ShownTo> all;
-  for (const auto demo : demonstrations) {
-    auto conveyed = cache.regions().minimal(cache.behaviours().conveyed(demo, people.cells));
-    if (!conveyed.empty()) all.push_back({demo, std::move(conveyed), &people});
+  for (const auto start : demonstrations) {
+    auto conveyed = cache.regions().minimal(cache.behaviours().conveyed(start, people.cells));
+    if (!conveyed.empty()) all.push_back({start, std::move(conveyed), &people});
   }
   return unit_of(cache, view, all);
 }

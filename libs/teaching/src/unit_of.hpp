@@ -14,7 +14,7 @@ namespace kith {
 
 // The same, with what they convey to these people each.
 struct ShownTo {
-  StartIndex demo;
+  StartIndex start;
   ConstraintSet conveyed;                  // minimal
   const ImaginedPeople* people = nullptr;  // never null
 };

@@ -6,9 +6,9 @@ namespace kith {
 namespace {
 
 // To the last demonstration, or to its world if it opens the unit: what is typical comes first.
-int dissimilarity(const Atlas& atlas, StartIndex demo, const std::vector<Demonstration>& unit) {
-  if (unit.empty()) return atlas.mean_dissimilarity(demo);
-  return atlas.domain().dissimilarity(atlas.id(demo), atlas.id(unit.back().demo));
+int dissimilarity(const Atlas& atlas, StartIndex start, const std::vector<Demonstration>& unit) {
+  if (unit.empty()) return atlas.mean_dissimilarity(start);
+  return atlas.domain().dissimilarity(atlas.id(start), atlas.id(unit.back().start));
 }
 
 }  // namespace
@@ -23,17 +23,17 @@ StartIndex simplest_of(const Atlas& atlas, std::span<const StartClassIndex> clas
   std::optional<VisualKey> best_key;
   StartIndex best;
   for (const auto c : classes) {
-    for (const auto demo : atlas.members(c)) {
-      if (visited.contains(demo)) continue;
-      VisualKey key{atlas.complexity(demo), 0, 0};
+    for (const auto start : atlas.members(c)) {
+      if (visited.contains(start)) continue;
+      VisualKey key{atlas.complexity(start), 0, 0};
       if (best_key && key.complexity > best_key->complexity) continue;
-      key.dissimilarity = dissimilarity(atlas, demo, unit);
+      key.dissimilarity = dissimilarity(atlas, start, unit);
       if (best_key && key > *best_key) continue;
       // Hashing is the costly part: only when everything else is equal.
-      key.chance = chance_of(demo, random);
+      key.chance = chance_of(start, random);
       if (best_key && key >= *best_key) continue;
       best_key = key;
-      best = demo;
+      best = start;
     }
   }
   return best;

@@ -21,8 +21,8 @@ struct VisualKey {
 };
 
 // The last resort among equals, the same for a demonstration whoever else is there.
-[[nodiscard]] inline std::uint64_t chance_of(StartIndex demo, const RandomStream& random) {
-  return random.split(demo.value()).address();
+[[nodiscard]] inline std::uint64_t chance_of(StartIndex start, const RandomStream& random) {
+  return random.split(start.value()).address();
 }
 
 // Whether some member of the class was not met yet.

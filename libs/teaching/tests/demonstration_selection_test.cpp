@@ -93,11 +93,11 @@ std::map<StartIndex, Ranked> ranked_starts(const KnowledgeComponent& component, 
   }
   std::map<StartIndex, Ranked> result;
   for (auto& [c, ranked] : of_class) {
-    for (const auto demo : atlas.members(c)) {
-      if (visited.contains(demo)) continue;
-      ranked.complexity = atlas.domain().complexity(atlas.id(demo));
-      ranked.unlike = atlas.mean_dissimilarity(demo);
-      result.emplace(demo, ranked);
+    for (const auto start : atlas.members(c)) {
+      if (visited.contains(start)) continue;
+      ranked.complexity = atlas.domain().complexity(atlas.id(start));
+      ranked.unlike = atlas.mean_dissimilarity(start);
+      result.emplace(start, ranked);
     }
   }
   return result;
@@ -107,17 +107,18 @@ std::map<StartIndex, Ranked> ranked_starts(const KnowledgeComponent& component, 
 // then the most typical one of its world.
 std::set<StartIndex> best_of(const std::map<StartIndex, Ranked>& ranked) {
   std::size_t fewest = ranked.begin()->second.num_new;
-  for (const auto& [demo, one] : ranked) fewest = std::min(fewest, one.num_new);
+  for (const auto& [start, one] : ranked) fewest = std::min(fewest, one.num_new);
   double gain = 0.0;
-  for (const auto& [demo, one] : ranked) gain = one.num_new == fewest ? std::max(gain, one.gain) : gain;
+  for (const auto& [start, one] : ranked) gain = one.num_new == fewest ? std::max(gain, one.gain) : gain;
   std::set<std::tuple<int, int, StartIndex>> equal;
-  for (const auto& [demo, one] : ranked) {
-    if (one.num_new == fewest && one.gain >= gain * (1.0 - kSameArea)) equal.insert({one.complexity, one.unlike, demo});
+  for (const auto& [start, one] : ranked) {
+    if (one.num_new == fewest && one.gain >= gain * (1.0 - kSameArea))
+      equal.insert({one.complexity, one.unlike, start});
   }
   std::set<StartIndex> best;
   const auto [complexity, unlike, first] = *equal.begin();
-  for (const auto& [c, u, demo] : equal) {
-    if (c == complexity && u == unlike) best.insert(demo);
+  for (const auto& [c, u, start] : equal) {
+    if (c == complexity && u == unlike) best.insert(start);
   }
   return best;
 }
@@ -138,9 +139,9 @@ TEST(SelectDemonstrations, BeginsWithFewNewFactsThenGainThenSimplicity) {
       const auto ranked = ranked_starts(component, cells, taught, none);
       ASSERT_FALSE(ranked.empty());
       const auto& first = unit.demonstrations.front();
-      EXPECT_TRUE(best_of(ranked).contains(first.demo)) << component.name << ", seed " << seed;
-      EXPECT_EQ(first.num_new, ranked.at(first.demo).num_new);
-      EXPECT_NEAR(first.gain / ranked.at(first.demo).gain, 1.0, 1e-9);
+      EXPECT_TRUE(best_of(ranked).contains(first.start)) << component.name << ", seed " << seed;
+      EXPECT_EQ(first.num_new, ranked.at(first.start).num_new);
+      EXPECT_NEAR(first.gain / ranked.at(first.start).gain, 1.0, 1e-9);
     }
   }
 }
@@ -156,8 +157,8 @@ TEST(SelectDemonstrations, EachAddsSomethingAndTogetherTheyGiveTheTaughtRegion) 
     for (const auto& shown : unit.demonstrations) {
       EXPECT_GT(shown.gain, 1.0);
       EXPECT_GT(shown.num_new, 0u);
-      EXPECT_TRUE(demos.insert(shown.demo).second) << "shown twice";
-      EXPECT_TRUE(component.uses_mdp[atlas.id(shown.demo).mdp.value()]);
+      EXPECT_TRUE(demos.insert(shown.start).second) << "shown twice";
+      EXPECT_TRUE(component.uses_mdp[atlas.id(shown.start).mdp.value()]);
       EXPECT_FALSE(shown.counterfactuals.empty());
       for (const auto& half_space : shown.half_spaces) {
         EXPECT_TRUE(half_space.contains(atlas.domain().weights().integer));
@@ -179,11 +180,11 @@ TEST(SelectDemonstrations, NeverShowsWhatWasVisited) {
     const auto unit = selected_unit(initial_belief(), component, prior_region(), visited, 11);
     ASSERT_FALSE(unit.demonstrations.empty());
     for (const auto& one : unit.demonstrations) {
-      EXPECT_TRUE(shown.insert(one.demo).second) << "shown in an earlier unit";
-      visited.insert(one.demo);
+      EXPECT_TRUE(shown.insert(one.start).second) << "shown in an earlier unit";
+      visited.insert(one.start);
     }
   }
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) visited.insert(demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) visited.insert(start);
   EXPECT_THAT(selected_unit(initial_belief(), component, prior_region(), visited, 11).demonstrations, IsEmpty());
 }
 

@@ -40,8 +40,8 @@ class Discussions : public ::testing::Test {
   [[nodiscard]] static std::vector<Answer> wrong_answers(const Session& session) {
     std::vector<Answer> answers;
     for (const auto& test : session.lesson().tests) {
-      for (const auto& path : session.atlas().tables().coverage_set(test.demo)) {
-        if (path == session.atlas().feature_counts(test.demo)) continue;
+      for (const auto& path : session.atlas().tables().coverage_set(test.start)) {
+        if (path == session.atlas().feature_counts(test.start)) continue;
         answers.emplace_back(path);
         break;
       }

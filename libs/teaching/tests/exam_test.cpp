@@ -66,8 +66,8 @@ TEST(Exam, AsksPeopleAboutStartsThatTheyHaveNotMet) {
   ASSERT_EQ(questions.size(), 9u);
   EXPECT_EQ(questions, cache.exam().questions(9, seen, RandomStream{5}));
   for (const auto question : questions) EXPECT_EQ(std::count(seen.begin(), seen.end(), question), 0);
-  const auto low = std::count_if(questions.begin(), questions.end(), [&](StartIndex demo) {
-    return std::binary_search(starts.begin(), starts.end(), demo);
+  const auto low = std::count_if(questions.begin(), questions.end(), [&](StartIndex start) {
+    return std::binary_search(starts.begin(), starts.end(), start);
   });
   EXPECT_EQ(low, 3);
 }

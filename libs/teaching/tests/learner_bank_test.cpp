@@ -38,7 +38,8 @@ class LearnerBankTest : public ::testing::Test {
     std::vector<kith::Test> tests;
     for (const auto facet : item_delivery().knowledge_components()[0].constraints.members()) {
       const auto starts = item_delivery().tests_for(facet);
-      if (!starts.empty()) tests.push_back({.demo = starts.front(), .covered = {item_delivery().constraints()[facet]}});
+      if (!starts.empty())
+        tests.push_back({.start = starts.front(), .covered = {item_delivery().constraints()[facet]}});
     }
     return tests;
   }
@@ -47,7 +48,7 @@ class LearnerBankTest : public ::testing::Test {
     auto one = bank();
     const auto asked = tests();
     std::vector<Answer> answers;
-    for (const auto& test : asked) answers.emplace_back(item_delivery().feature_counts(test.demo));
+    for (const auto& test : asked) answers.emplace_back(item_delivery().feature_counts(test.start));
     if (!right) answers = wrong(asked);
     const std::vector<Verdict> verdicts(asked.size());
     const auto shown = item_delivery().constraints().half_spaces(item_delivery().knowledge_components()[0].constraints);
@@ -65,11 +66,11 @@ class LearnerBankTest : public ::testing::Test {
     for (std::size_t i = 0; i < cover.size(); ++i) {
       const auto cell = cache_.behaviours().locate(cover.point(i));
       std::vector<Answer> answers;
-      for (const auto& test : asked) answers.push_back(item_delivery().tables().answer(test.demo, cell));
+      for (const auto& test : asked) answers.push_back(item_delivery().tables().answer(test.start, cell));
       bool is_wrong = false, has_answers = true;
       for (std::size_t t = 0; t < asked.size(); ++t) {
         has_answers = has_answers && answers[t].has_value();
-        is_wrong = is_wrong || (has_answers && *answers[t] != item_delivery().feature_counts(asked[t].demo));
+        is_wrong = is_wrong || (has_answers && *answers[t] != item_delivery().feature_counts(asked[t].start));
       }
       if (has_answers && is_wrong) return answers;
     }
@@ -127,7 +128,7 @@ TEST_F(LearnerBankTest, WeighsPathsThatAreBestForNobodyByTheirVerdicts) {
   one.begin_component();
   one.watch(shown, 1);
   // A long detour, and what a wrong answer of somebody else shows.
-  auto detour = item_delivery().feature_counts(asked.front().demo);
+  auto detour = item_delivery().feature_counts(asked.front().start);
   detour[2] += 40;
   const HalfSpace verdict{-asked.front().covered.front().normal()};
   const std::vector<kith::Test> test{asked.front()};
@@ -136,7 +137,7 @@ TEST_F(LearnerBankTest, WeighsPathsThatAreBestForNobodyByTheirVerdicts) {
   const auto by_verdict = ratings_of(one, AnswerFit{item_delivery(), test, answers, verdicts});
   const auto silent = ratings_of(one, AnswerFit{item_delivery(), test, answers, std::vector{Verdict{}}});
   const double slip =
-      AnswerFit::slip() / (static_cast<double>(item_delivery().tables().coverage_set(test.front().demo).size()) + 1.0);
+      AnswerFit::slip() / (static_cast<double>(item_delivery().tables().coverage_set(test.front().start).size()) + 1.0);
   for (std::size_t h = 0; h < by_verdict.size(); ++h) {
     EXPECT_GT(by_verdict[h].likelihood, 0.1 * slip);
     EXPECT_LT(by_verdict[h].likelihood, slip);
@@ -165,7 +166,7 @@ TEST_F(LearnerBankTest, TakesPathsThatAreBestForNobodyForGuesses) {
   const auto asked = tests();
   std::vector<Answer> detours;
   for (const auto& test : asked) {
-    auto detour = item_delivery().feature_counts(test.demo);
+    auto detour = item_delivery().feature_counts(test.start);
     detour[2] += 40;
     detours.emplace_back(detour);
   }
@@ -207,8 +208,8 @@ TEST_F(LearnerBankTest, ExpectsAnswersWithProbabilitiesThatSumToOne) {
   std::vector<std::vector<Answer>> sets{{}};
   for (const auto& test : asked) {
     std::vector<std::vector<Answer>> longer;
-    auto paths = item_delivery().tables().coverage_set(test.demo);
-    auto detour = item_delivery().feature_counts(test.demo);
+    auto paths = item_delivery().tables().coverage_set(test.start);
+    auto detour = item_delivery().feature_counts(test.start);
     detour[2] += 40;
     paths.push_back(detour);
     for (const auto& set : sets) {
@@ -224,7 +225,7 @@ TEST_F(LearnerBankTest, ExpectsAnswersWithProbabilitiesThatSumToOne) {
   for (const auto& set : sets) {
     std::vector<Verdict> verdicts;
     for (std::size_t t = 0; t < set.size(); ++t) {
-      verdicts.push_back({.correct = *set[t] == item_delivery().feature_counts(asked[t].demo), .half_spaces = {}});
+      verdicts.push_back({.correct = *set[t] == item_delivery().feature_counts(asked[t].start), .half_spaces = {}});
     }
     const AnswerFit fit{item_delivery(), asked, set, verdicts};
     sensible += fit.of(AnswerFit::Guess::kSensible).likelihood;

@@ -30,7 +30,7 @@ Session session_of_two(TeachingCache& cache, std::string_view strategy, const Te
 std::vector<std::vector<Answer>> answers_to(const Session& session, bool right) {
   std::vector<Answer> answers;
   for (const auto& test : session.lesson().tests) {
-    answers.push_back(right ? Answer{item_delivery().feature_counts(test.demo)} : Answer{});
+    answers.push_back(right ? Answer{item_delivery().feature_counts(test.start)} : Answer{});
   }
   return std::vector(session.num_members(), answers);
 }

@@ -37,8 +37,8 @@ class MisconceptionBankTest : public ::testing::Test {
     ObservedPeriod period;
     period.period = number;
     period.component = 0;
-    period.demonstrations.push_back({.demo = start, .half_spaces = shown, .counterfactuals = {}});
-    period.tests.push_back({.demo = start, .covered = {kRubble}});
+    period.demonstrations.push_back({.start = start, .half_spaces = shown, .counterfactuals = {}});
+    period.tests.push_back({.start = start, .covered = {kRubble}});
     period.answers.push_back(answer);
     period.verdicts.push_back({.correct = is_right, .half_spaces = {}});
     period.all_correct = is_right;

@@ -10,7 +10,7 @@ TEST(ObservedPeriods, LeaveOutPeriodsInWhichTheMemberWasAway) {
   PastPeriod both;
   both.lesson.period = 1;
   both.lesson.component = 2;
-  both.lesson.tests.push_back({.demo = StartIndex{7}, .covered = {taught}});
+  both.lesson.tests.push_back({.start = StartIndex{7}, .covered = {taught}});
   both.answers = {{IntegerVector{0, 0, 3}}, {std::nullopt}};
   both.feedback.verdicts = {{Verdict{.correct = true, .half_spaces = {}}},
                             {Verdict{.answered = false, .half_spaces = {}}}};

@@ -176,8 +176,8 @@ TEST(OpenFacets, DemonstrationsShowWhatTheyAreSaidTo) {
           std::vector<PolicyCellIndex> cells;
           for (const auto& weights : one.counterfactuals) cells.push_back(cache.behaviours().locate(weights));
           std::sort(cells.begin(), cells.end());
-          auto conveyed = cache.behaviours().conveyed(one.demo, cells);
-          conveyed |= cache.atlas().one_step(one.demo);  // to people who expect no end
+          auto conveyed = cache.behaviours().conveyed(one.start, cells);
+          conveyed |= cache.atlas().one_step(one.start);  // to people who expect no end
           for (const auto& shown : one.half_spaces) {
             EXPECT_FALSE(cuts(cache, conveyed | cache.atlas().prior(), shown)) << domain << ", " << kind.name;
           }

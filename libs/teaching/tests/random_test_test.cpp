@@ -64,7 +64,7 @@ TEST_F(RandomTestTest, TeamBanksLearnFromAnswers) {
     for (std::size_t i = 0; i < 2; ++i) {
       std::vector<Answer> answers;
       for (const auto& test : session.lesson().tests) {
-        answers.push_back(right ? Answer{item_delivery().feature_counts(test.demo)} : Answer{});
+        answers.push_back(right ? Answer{item_delivery().feature_counts(test.start)} : Answer{});
       }
       session.answer(i, answers);
     }

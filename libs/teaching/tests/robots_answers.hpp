@@ -9,7 +9,7 @@ namespace kith::testing {
 /// Answers to the tests of the session's lesson: everywhere the robot's own path.
 inline std::vector<Answer> robots_answers(const Session& session) {
   std::vector<Answer> answers;
-  for (const auto& test : session.lesson().tests) answers.emplace_back(session.atlas().feature_counts(test.demo));
+  for (const auto& test : session.lesson().tests) answers.emplace_back(session.atlas().feature_counts(test.start));
   return answers;
 }
 

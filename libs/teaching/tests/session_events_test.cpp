@@ -51,7 +51,7 @@ std::vector<Answer> some_answers(const Session& session, RandomStream& random) {
       answers.emplace_back();
       continue;
     }
-    const auto test = session.lesson().tests[t].demo;
+    const auto test = session.lesson().tests[t].start;
     const auto& paths = session.atlas().tables().coverage_set(test);
     switch (uniform_index(8, random)) {
       case 0:
@@ -227,8 +227,8 @@ TEST(SessionEvents, CertaintyAboutPeopleDoesNotEndTheSession) {
     ASSERT_TRUE(session.propose(cache));
     std::vector<std::vector<Answer>> answers(2);
     for (const auto& test : session.lesson().tests) {
-      for (const auto& path : item_delivery().tables().coverage_set(test.demo)) {
-        if (path == item_delivery().feature_counts(test.demo)) continue;
+      for (const auto& path : item_delivery().tables().coverage_set(test.start)) {
+        if (path == item_delivery().feature_counts(test.start)) continue;
         for (auto& list : answers) list.emplace_back(path);
         break;
       }
@@ -424,7 +424,7 @@ TEST(SessionEvents, ThreadsShareAnAtlasAndHandCachesOn) {
       std::vector<std::vector<Answer>> answers(2);
       for (auto& list : answers) {
         for (const auto& test : session.lesson().tests) {
-          const auto paths = item_delivery().tables().coverage_set(test.demo);
+          const auto paths = item_delivery().tables().coverage_set(test.start);
           list.emplace_back(paths[uniform_index(paths.size(), random)]);
         }
       }
@@ -460,7 +460,7 @@ TEST(SessionEvents, NeitherCacheNorThreadMatters) {
     std::vector<std::vector<Answer>> answers(2);
     for (auto& list : answers) {
       for (const auto& test : session.lesson().tests) {
-        const auto& paths = item_delivery().tables().coverage_set(test.demo);
+        const auto& paths = item_delivery().tables().coverage_set(test.start);
         list.emplace_back(paths[uniform_index(paths.size(), random)]);
       }
     }

@@ -53,7 +53,7 @@ IntegerVector worse_answer(StartIndex test) {
 
 std::vector<std::vector<Answer>> wrong_answers(const Session& session) {
   std::vector<Answer> answers;
-  for (const auto& test : session.lesson().tests) answers.emplace_back(worse_answer(test.demo));
+  for (const auto& test : session.lesson().tests) answers.emplace_back(worse_answer(test.start));
   return std::vector(session.num_members(), answers);
 }
 
@@ -101,7 +101,7 @@ TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
     auto conveyed = atlas.prior();
     double log_gain = 0.0;
     for (const auto& shown : lesson.demonstrations) {
-      EXPECT_TRUE(component.uses_mdp[atlas.id(shown.demo).mdp.value()]);
+      EXPECT_TRUE(component.uses_mdp[atlas.id(shown.start).mdp.value()]);
       if (!lesson.source.is_everybody()) {  // chosen for its gain
         EXPECT_GT(shown.gain, 1.0);
         EXPECT_GE(shown.num_new, 1u);
@@ -116,7 +116,7 @@ TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
     EXPECT_LE(lesson.running_area_sr, lesson.area_sr + 1e-12);
     std::vector<HalfSpace> covered;
     for (const auto& test : lesson.tests) {
-      EXPECT_TRUE(component.uses_mdp[atlas.id(test.demo).mdp.value()]);
+      EXPECT_TRUE(component.uses_mdp[atlas.id(test.start).mdp.value()]);
       EXPECT_FALSE(test.covered.empty());
       covered.insert(covered.end(), test.covered.begin(), test.covered.end());
     }
@@ -143,7 +143,7 @@ TEST_P(EveryStrategy, EqualStreamsAndAnswersGiveEqualSessions) {
     ASSERT_FALSE(b.finished());
     ASSERT_EQ(a.lesson().demonstrations.size(), b.lesson().demonstrations.size());
     for (std::size_t k = 0; k < a.lesson().demonstrations.size(); ++k) {
-      EXPECT_EQ(a.lesson().demonstrations[k].demo, b.lesson().demonstrations[k].demo);
+      EXPECT_EQ(a.lesson().demonstrations[k].start, b.lesson().demonstrations[k].start);
     }
     submit(a, cache_, i % 2 == 0 ? wrong_answers(a) : all_right(a));
     submit(b, other_cache, i % 2 == 0 ? wrong_answers(b) : all_right(b));
@@ -169,8 +169,8 @@ TEST(Session, ATeamOfOneIsTaughtAlikeForEveryBelief) {
     auto session = make_session(cache, name, 1);
     auto& list = shown.emplace_back();
     for (int i = 0; i < 6 && !session.finished(); ++i) {
-      for (const auto& demo : session.lesson().demonstrations) list.push_back(demo.demo);
-      for (const auto& test : session.lesson().tests) list.push_back(test.demo);
+      for (const auto& start : session.lesson().demonstrations) list.push_back(start.start);
+      for (const auto& test : session.lesson().tests) list.push_back(test.start);
       submit(session, cache, i % 2 == 0 ? wrong_answers(session) : all_right(session));
     }
   }
@@ -207,7 +207,7 @@ TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "joint", 3);
   auto answers = all_right(session);
-  answers[1][0] = worse_answer(session.lesson().tests[0].demo);
+  answers[1][0] = worse_answer(session.lesson().tests[0].start);
   const auto feedback = submit(session, cache, answers);
   EXPECT_THAT(feedback.all_correct, ::testing::ElementsAre(true, false, true));
   EXPECT_FALSE(feedback.component_learned);
@@ -230,7 +230,7 @@ TEST(Session, AMissingAnswerIsWrongAndShowsNothing) {
 TEST(Session, AWrongAnswerShowsTheHalfSpaceInWhichItWins) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "common", 1);
-  const auto test = session.lesson().tests[0].demo;
+  const auto test = session.lesson().tests[0].start;
   auto answers = wrong_answers(session);
   const auto loss = item_delivery().feature_counts(test) - *answers[0][0];
   const auto feedback = submit(session, cache, answers);
@@ -251,13 +251,13 @@ TEST(Session, ARightAnswerByAnotherPathIsNoEvidence) {
     while (session.propose(cache)) {
       std::vector<Answer> answers;
       for (const auto& test : session.lesson().tests) {
-        const auto& paths = atlas.tables().coverage_set(test.demo);
+        const auto& paths = atlas.tables().coverage_set(test.start);
         answers.emplace_back(paths[uniform_index(paths.size(), random)]);
-        if (session.periods() % 4 == 3) answers.back() = atlas.feature_counts(test.demo);
-        for (const auto& path : atlas.tables().coverage_set(test.demo)) {
-          const auto loss = atlas.feature_counts(test.demo) - path;
+        if (session.periods() % 4 == 3) answers.back() = atlas.feature_counts(test.start);
+        for (const auto& path : atlas.tables().coverage_set(test.start)) {
+          const auto loss = atlas.feature_counts(test.start) - path;
           const bool as_good = sign_of_dot(atlas.domain().weights().integer, loss) == 0;
-          if (as_good && path != atlas.feature_counts(test.demo)) answers.back() = path;
+          if (as_good && path != atlas.feature_counts(test.start)) answers.back() = path;
         }
       }
       const auto lesson = session.lesson();
@@ -265,7 +265,7 @@ TEST(Session, ARightAnswerByAnotherPathIsNoEvidence) {
       for (std::size_t t = 0; t < answers.size(); ++t) {
         const auto& verdict = feedback.verdicts[0][t];
         if (!verdict.correct) continue;
-        const auto difference = *answers[t] - atlas.feature_counts(lesson.tests[t].demo);
+        const auto difference = *answers[t] - atlas.feature_counts(lesson.tests[t].start);
         if (difference == IntegerVector{0, 0, 0}) {
           EXPECT_EQ(verdict.half_spaces, lesson.tests[t].covered);
           ++same;

@@ -86,7 +86,7 @@ class EveryKind : public ::testing::TestWithParam<std::size_t> {
       auto random = person(i).split("answers").split(session.periods());
       auto& list = all.emplace_back();
       for (const auto& test : session.lesson().tests) {
-        const auto paths = item_delivery().tables().coverage_set(test.demo);
+        const auto paths = item_delivery().tables().coverage_set(test.start);
         list.emplace_back(paths[uniform_index(paths.size(), random)]);
       }
     }
@@ -196,18 +196,18 @@ TEST_P(EveryKind, AsksWhatItShowedOnlyIfNothingElseServes) {
   for (int period = 0; period < 8 && taught.propose(cache); ++period) {
     const auto& lesson = taught.lesson();
     const auto& component = atlas.knowledge_components()[lesson.component];
-    for (const auto& one : lesson.demonstrations) shown[one.demo.value()] = true;
+    for (const auto& one : lesson.demonstrations) shown[one.start.value()] = true;
     const auto all_shown = [&](const HalfSpace& constraint) {
       const auto number = atlas.constraints().find(constraint);
       if (!number) return false;
       const auto tests = atlas.tests_for(*number);
-      return std::all_of(tests.begin(), tests.end(), [&](StartIndex demo) {
-        return shown[demo.value()] || !component.uses_mdp[atlas.id(demo).mdp.value()];
+      return std::all_of(tests.begin(), tests.end(), [&](StartIndex start) {
+        return shown[start.value()] || !component.uses_mdp[atlas.id(start).mdp.value()];
       });
     };
     std::size_t repeated = 0;
     for (const auto& test : lesson.tests) {
-      if (!shown[test.demo.value()]) continue;
+      if (!shown[test.start.value()]) continue;
       ++repeated;
       if (test.exact) {
         EXPECT_TRUE(std::any_of(test.covered.begin(), test.covered.end(), all_shown)) << lesson.period;

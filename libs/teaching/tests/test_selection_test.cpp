@@ -53,8 +53,8 @@ halfspaces = [ { puddle = -1 }, { goal = 1 }, { step = -1 } ]
 
 const KnowledgeComponent& last_component(const Atlas& atlas) { return atlas.knowledge_components().back(); }
 
-bool is_in(const Atlas& atlas, const KnowledgeComponent& component, StartIndex demo) {
-  return component.uses_mdp[atlas.id(demo).mdp.value()];
+bool is_in(const Atlas& atlas, const KnowledgeComponent& component, StartIndex start) {
+  return component.uses_mdp[atlas.id(start).mdp.value()];
 }
 
 // The starts that can test a constraint, by definition: somebody who differs only in it answers differently, and the
@@ -64,14 +64,15 @@ std::set<StartIndex> testers(const Atlas& atlas, const KnowledgeComponent& compo
   std::set<StartIndex> all, fresh;
   const auto number = atlas.constraints().find(constraint);
   if (!number) return {};
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo) || !is_in(atlas, component, demo)) continue;
-    if (!atlas.one_step(demo).contains(*number) || !atlas.tables().robot_cell_facets(demo).contains(*number)) continue;
-    all.insert(demo);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start) || !is_in(atlas, component, start)) continue;
+    if (!atlas.one_step(start).contains(*number) || !atlas.tables().robot_cell_facets(start).contains(*number))
+      continue;
+    all.insert(start);
     const bool shown = std::any_of(visited.in_order().begin(), visited.in_order().end(), [&](StartIndex one) {
-      return atlas.trajectory_class(one) == atlas.trajectory_class(demo);
+      return atlas.trajectory_class(one) == atlas.trajectory_class(start);
     });
-    if (!shown) fresh.insert(demo);
+    if (!shown) fresh.insert(start);
   }
   return fresh.empty() ? all : fresh;
 }
@@ -80,21 +81,21 @@ std::set<StartIndex> testers(const Atlas& atlas, const KnowledgeComponent& compo
 std::set<StartIndex> first_by_looks(const Atlas& atlas, const std::set<StartIndex>& demos,
                                     const std::vector<Demonstration>& unit) {
   std::set<std::pair<std::pair<int, int>, StartIndex>> ranked;
-  for (const auto demo : demos) {
+  for (const auto start : demos) {
     int unlike = 0;
-    for (const auto& shown : unit) unlike += atlas.domain().dissimilarity(atlas.id(demo), atlas.id(shown.demo));
-    ranked.insert({{-atlas.domain().complexity(atlas.id(demo)), -unlike}, demo});
+    for (const auto& shown : unit) unlike += atlas.domain().dissimilarity(atlas.id(start), atlas.id(shown.start));
+    ranked.insert({{-atlas.domain().complexity(atlas.id(start)), -unlike}, start});
   }
   std::set<StartIndex> first;
-  for (const auto& [key, demo] : ranked) {
-    if (key == ranked.begin()->first) first.insert(demo);
+  for (const auto& [key, start] : ranked) {
+    if (key == ranked.begin()->first) first.insert(start);
   }
   return first;
 }
 
-std::vector<Demonstration> showing(StartIndex demo) {
+std::vector<Demonstration> showing(StartIndex start) {
   Demonstration shown;
-  shown.demo = demo;
+  shown.start = start;
   return {shown};
 }
 
@@ -113,8 +114,8 @@ TEST(SelectTests, CoversEveryConstraintOrCountsIt) {
     });
     EXPECT_LE(static_cast<std::size_t>(uncovered), choice.untested) << component.name;
     for (const auto& test : choice.tests) {
-      EXPECT_TRUE(is_in(atlas, component, test.demo)) << component.name;
-      EXPECT_TRUE(visited.contains(test.demo));
+      EXPECT_TRUE(is_in(atlas, component, test.start)) << component.name;
+      EXPECT_TRUE(visited.contains(test.start));
     }
   }
 }
@@ -125,11 +126,11 @@ TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
   const auto& component = last_component(atlas);
   // What the start with the most constraints tests, and what determines the policy.
   ConstraintSet several = atlas.no_constraints();
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.is_candidate(demo)) continue;
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.is_candidate(start)) continue;
     auto both = atlas.no_constraints();
-    for (const auto c : atlas.tables().robot_cell_facets(demo).members()) {
-      if (atlas.one_step(demo).contains(c)) both.insert(c);
+    for (const auto c : atlas.tables().robot_cell_facets(start).members()) {
+      if (atlas.one_step(start).contains(c)) both.insert(c);
     }
     if (both.count() > several.count()) several = both;
   }
@@ -138,19 +139,19 @@ TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
   const VisitedStarts none{atlas.num_states()};
   std::vector<std::size_t> count(atlas.num_states());
   for (const auto& constraint : taught) {
-    for (const auto demo : testers(atlas, component, constraint, none)) ++count[demo.value()];
+    for (const auto start : testers(atlas, component, constraint, none)) ++count[start.value()];
   }
   const auto most = *std::max_element(count.begin(), count.end());
   ASSERT_GE(most, 2u);
   std::set<StartIndex> best;
-  for (StartIndex demo{0}; demo.value() < count.size(); ++demo) {
-    if (count[demo.value()] == most) best.insert(demo);
+  for (StartIndex start{0}; start.value() < count.size(); ++start) {
+    if (count[start.value()] == most) best.insert(start);
   }
   auto visited = none;
   const auto choice = select_tests(atlas, component, {}, taught, visited, RandomStream{3});
   ASSERT_FALSE(choice.tests.empty());
   EXPECT_EQ(choice.tests.front().covered.size(), most);
-  EXPECT_TRUE(first_by_looks(atlas, best, {}).contains(choice.tests.front().demo));
+  EXPECT_TRUE(first_by_looks(atlas, best, {}).contains(choice.tests.front().start));
 }
 
 TEST(SelectTests, TakesTheMostComplexThenTheLeastAlikeThenChance) {
@@ -166,7 +167,7 @@ TEST(SelectTests, TakesTheMostComplexThenTheLeastAlikeThenChance) {
       const auto choice = select_tests(atlas, component, unit, {constraint}, visited, RandomStream{seed});
       ASSERT_EQ(choice.tests.size(), 1u);
       EXPECT_TRUE(choice.tests[0].exact);
-      chosen.insert(choice.tests[0].demo);
+      chosen.insert(choice.tests[0].start);
     }
     EXPECT_TRUE(std::includes(first.begin(), first.end(), chosen.begin(), chosen.end()));
     EXPECT_EQ(chosen.size() > 1, first.size() > 1) << "chance decides among " << first.size();
@@ -180,18 +181,18 @@ TEST(SelectTests, PrefersPicturesThatWereNotShown) {
   const std::vector<HalfSpace> taught{atlas.policy_bec_half_spaces().front()};
   const auto all = testers(atlas, component, taught.front(), VisitedStarts{atlas.num_states()});
   std::set<std::uint32_t> classes;
-  for (const auto demo : all) classes.insert(atlas.trajectory_class(demo));
+  for (const auto start : all) classes.insert(atlas.trajectory_class(start));
   VisitedStarts visited{atlas.num_states()};
   std::set<std::uint32_t> asked;
   for (std::size_t i = 0; i < std::min<std::size_t>(classes.size(), 30); ++i) {
     const auto choice = select_tests(atlas, component, {}, taught, visited, RandomStream{5});
     ASSERT_EQ(choice.tests.size(), 1u);
-    EXPECT_TRUE(asked.insert(atlas.trajectory_class(choice.tests[0].demo)).second) << "asked again, after " << i;
+    EXPECT_TRUE(asked.insert(atlas.trajectory_class(choice.tests[0].start)).second) << "asked again, after " << i;
   }
-  for (const auto demo : all) visited.insert(demo);
+  for (const auto start : all) visited.insert(start);
   const auto again = select_tests(atlas, component, {}, taught, visited, RandomStream{5});
   ASSERT_EQ(again.tests.size(), 1u);
-  EXPECT_TRUE(all.contains(again.tests[0].demo));
+  EXPECT_TRUE(all.contains(again.tests[0].start));
 }
 
 // Of starts that people met, those come last that were demonstrated.
@@ -202,19 +203,19 @@ TEST(SelectTests, AsksWhatWasDemonstratedOnlyIfNothingElseTestsIt) {
   const auto all = testers(atlas, component, taught.front(), VisitedStarts{atlas.num_states()});
   ASSERT_GT(all.size(), 2u);
   VisitedStarts met{atlas.num_states()}, demonstrated{atlas.num_states()};
-  for (const auto demo : all) {
-    met.insert(demo);
-    if (demo != *all.rbegin()) demonstrated.insert(demo);
+  for (const auto start : all) {
+    met.insert(start);
+    if (start != *all.rbegin()) demonstrated.insert(start);
   }
   TeachingCache cache{atlas};
   const TestPreferences preferences{cache, demonstrated};
   auto choice = select_tests(atlas, component, {}, taught, met, RandomStream{5}, &preferences);
   ASSERT_EQ(choice.tests.size(), 1u);
-  EXPECT_EQ(choice.tests[0].demo, *all.rbegin());
+  EXPECT_EQ(choice.tests[0].start, *all.rbegin());
   demonstrated.insert(*all.rbegin());
   choice = select_tests(atlas, component, {}, taught, met, RandomStream{5}, &preferences);
   ASSERT_EQ(choice.tests.size(), 1u);
-  EXPECT_TRUE(all.contains(choice.tests[0].demo));
+  EXPECT_TRUE(all.contains(choice.tests[0].start));
 }
 
 TEST(SelectTests, PrefersWhatTheShortestPathGetsWrong) {
@@ -234,7 +235,7 @@ TEST(SelectTests, PrefersWhatTheShortestPathGetsWrong) {
       const bool any =
           std::any_of(tests.begin(), tests.end(), [&](StartIndex d) { return cache.is_shortest_wrong(d); });
       ASSERT_EQ(choice.tests.size(), 1u);
-      EXPECT_EQ(cache.is_shortest_wrong(choice.tests[0].demo), any) << name;
+      EXPECT_EQ(cache.is_shortest_wrong(choice.tests[0].start), any) << name;
       num_wrong += any ? 1u : 0u;
     }
     EXPECT_GT(num_wrong, 0u) << name;
@@ -266,7 +267,7 @@ TEST(SelectTests, LetsTheNearestConstraintStandIn) {
   ASSERT_EQ(choice.tests.size(), 1u);
   EXPECT_FALSE(choice.tests[0].exact);
   EXPECT_THAT(choice.tests[0].covered, ElementsAre(odd));
-  EXPECT_TRUE(first_by_looks(atlas, testers(atlas, component, *nearest, none), {}).contains(choice.tests[0].demo));
+  EXPECT_TRUE(first_by_looks(atlas, testers(atlas, component, *nearest, none), {}).contains(choice.tests[0].start));
 }
 
 TEST(SelectTests, CountsWhatNothingCanTest) {
@@ -289,10 +290,10 @@ TEST(SelectTests, FindsTheOnlyStartThatAsksAboutThePuddle) {
   std::vector<Cell> cells;
   const auto number = atlas.constraints().find(puddle);
   ASSERT_TRUE(number);
-  for (StartIndex demo{0}; demo.value() < atlas.num_states(); ++demo) {
-    if (!atlas.tested_constraints(demo).contains(*number)) continue;
-    EXPECT_EQ(atlas.id(demo).mdp, MdpIndex{1});
-    cells.push_back(map.state(MdpIndex{1}, atlas.id(demo).start).robot);
+  for (StartIndex start{0}; start.value() < atlas.num_states(); ++start) {
+    if (!atlas.tested_constraints(start).contains(*number)) continue;
+    EXPECT_EQ(atlas.id(start).mdp, MdpIndex{1});
+    cells.push_back(map.state(MdpIndex{1}, atlas.id(start).start).robot);
   }
   EXPECT_THAT(cells, ElementsAre(Cell{1, 1}));
   VisitedStarts visited{atlas.num_states()};
@@ -303,11 +304,11 @@ TEST(SelectTests, FindsTheOnlyStartThatAsksAboutThePuddle) {
   const auto choice = select_tests(atlas, *component, {}, {puddle}, visited, RandomStream{1});
   ASSERT_EQ(choice.tests.size(), 1u);
   EXPECT_TRUE(choice.tests[0].exact);
-  EXPECT_EQ(atlas.id(choice.tests[0].demo), (StartId{MdpIndex{1}, atlas.domain().initial_state(MdpIndex{1})}));
+  EXPECT_EQ(atlas.id(choice.tests[0].start), (StartId{MdpIndex{1}, atlas.domain().initial_state(MdpIndex{1})}));
   // There is no other start: the same one is asked again.
   const auto again = select_tests(atlas, *component, {}, {puddle}, visited, RandomStream{2});
   ASSERT_EQ(again.tests.size(), 1u);
-  EXPECT_EQ(again.tests[0].demo, choice.tests[0].demo);
+  EXPECT_EQ(again.tests[0].start, choice.tests[0].start);
 }
 
 }  // namespace

@@ -65,49 +65,51 @@ class Atlas {
   /// Of all non-terminal states; not all need be candidates.
   [[nodiscard]] std::size_t num_states() const noexcept { return demos_.size(); }
   /// Whether demonstrations and tests may start there (Domain::starts()).
-  [[nodiscard]] bool is_candidate(StartIndex demo) const { return demos_[demo.value()].start_class != kNoClass; }
-  [[nodiscard]] StartId id(StartIndex demo) const { return demos_[demo.value()].id; }
+  [[nodiscard]] bool is_candidate(StartIndex start) const { return demos_[start.value()].start_class != kNoClass; }
+  [[nodiscard]] StartId id(StartIndex start) const { return demos_[start.value()].id; }
   [[nodiscard]] StartIndex index(StartId id) const {
     return StartIndex{first_demo_[id.mdp.value()] + id.start.value()};
   }
   /// The robot's canonical path, of at least one action; the likeliest where chance has a part. A robot that never ends
   /// goes round in a cycle.
-  [[nodiscard]] Trajectory trajectory(StartIndex demo) const;
+  [[nodiscard]] Trajectory trajectory(StartIndex start) const;
   /// The states of that path that are not terminal, as demonstrations of their own, in order; those of a cycle once.
-  [[nodiscard]] std::vector<StartIndex> path(StartIndex demo) const;
+  [[nodiscard]] std::vector<StartIndex> path(StartIndex start) const;
   /// What the robot does in the start state.
-  [[nodiscard]] ActionIndex action(StartIndex demo) const;
+  [[nodiscard]] ActionIndex action(StartIndex start) const;
   /// The next state on that path, as a demonstration of its own; nothing where the path ends. Following it never ends
   /// where the path does not.
-  [[nodiscard]] std::optional<StartIndex> next(StartIndex demo) const {
-    const auto at = demos_[demo.value()].next;
+  [[nodiscard]] std::optional<StartIndex> next(StartIndex start) const {
+    const auto at = demos_[start.value()].next;
     return at == kTerminal ? std::nullopt : std::optional{StartIndex{at}};
   }
   /// The number of actions of the cycle that the start state lies on, where the path never ends; 0: on none.
-  [[nodiscard]] std::size_t cycle_length(StartIndex demo) const { return demos_[demo.value()].cycle_length; }
+  [[nodiscard]] std::size_t cycle_length(StartIndex start) const { return demos_[start.value()].cycle_length; }
   /// mu of the robot's path, or its expectation, shape [d].
-  [[nodiscard]] const IntegerVector& feature_counts(StartIndex demo) const { return counts_[demo.value()]; }
+  [[nodiscard]] const IntegerVector& feature_counts(StartIndex start) const { return counts_[start.value()]; }
   /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].
   /// @param choice  position in Mdp::choices() of the start.
   /// @throws std::invalid_argument if there is no such choice.
-  [[nodiscard]] IntegerVector deviation_counts(StartIndex demo, std::size_t choice) const;
+  [[nodiscard]] IntegerVector deviation_counts(StartIndex start, std::size_t choice) const;
   /// Whether the robot's optimal path is unique (ties in features or not).
-  [[nodiscard]] bool is_unique(StartIndex demo) const { return demos_[demo.value()].unique; }
+  [[nodiscard]] bool is_unique(StartIndex start) const { return demos_[start.value()].unique; }
   /// Whether some optimal action besides the canonical one exists in the start state itself.
-  [[nodiscard]] bool has_tie(StartIndex demo) const { return demos_[demo.value()].tie; }
+  [[nodiscard]] bool has_tie(StartIndex start) const { return demos_[start.value()].tie; }
   /// Minimal set of what the path shows: the one-step deviation constraints, mu_robot(s_t) - mu(s_t, b) for every state
   /// s_t of the path and every action b, and, where behaviours are not tabulated and candidates' paths do not meet
   /// every state, comparisons of the path with whole paths of people who would satisfy all of these. @pre
   /// is_candidate(demo).
-  [[nodiscard]] const ConstraintSet& one_step(StartIndex demo) const {
-    return one_step_sets_[demos_[demo.value()].one_step];
+  [[nodiscard]] const ConstraintSet& one_step(StartIndex start) const {
+    return one_step_sets_[demos_[start.value()].one_step];
   }
   /// Equal for demonstrations that look the same: same pictures, same actions.
-  [[nodiscard]] std::uint32_t trajectory_class(StartIndex demo) const { return demos_[demo.value()].trajectory_class; }
+  [[nodiscard]] std::uint32_t trajectory_class(StartIndex start) const {
+    return demos_[start.value()].trajectory_class;
+  }
   /// Domain::complexity() of the start picture.
-  [[nodiscard]] int complexity(StartIndex demo) const { return demos_[demo.value()].complexity; }
+  [[nodiscard]] int complexity(StartIndex start) const { return demos_[start.value()].complexity; }
   /// Mean dissimilarity of the start picture to all others of the same MDP, rounded.
-  [[nodiscard]] int mean_dissimilarity(StartIndex demo) const { return demos_[demo.value()].mean_dissimilarity; }
+  [[nodiscard]] int mean_dissimilarity(StartIndex start) const { return demos_[start.value()].mean_dissimilarity; }
 
   // --- the robot's policy ---------------------------------------------------
   /// Minimal set of all one_step(): the behaviour equivalence class of the policy.
@@ -129,7 +131,7 @@ class Atlas {
 
   // --- classes that convey the same -----------------------------------------
   [[nodiscard]] std::size_t num_start_classes() const noexcept { return classes_.size(); }
-  [[nodiscard]] StartClassIndex start_class(StartIndex demo) const { return demos_[demo.value()].start_class; }
+  [[nodiscard]] StartClassIndex start_class(StartIndex start) const { return demos_[start.value()].start_class; }
   /// In ascending order; all are candidates.
   [[nodiscard]] std::span<const StartIndex> members(StartClassIndex c) const { return classes_[c.value()]; }
   [[nodiscard]] std::size_t words_per_set() const noexcept { return (constraints_.size() + 63) / 64; }
@@ -137,8 +139,8 @@ class Atlas {
   // --- tests ----------------------------------------------------------------
   /// Constraints that a right answer shows: BehaviourTables::robot_cell_facets() where behaviours are tabulated, else
   /// one_step(), of which they are some. @pre is_candidate(demo).
-  [[nodiscard]] const ConstraintSet& tested_constraints(StartIndex demo) const {
-    return tables_ ? tables_->robot_cell_facets(demo) : one_step(demo);
+  [[nodiscard]] const ConstraintSet& tested_constraints(StartIndex start) const {
+    return tables_ ? tables_->robot_cell_facets(start) : one_step(start);
   }
   /// Demonstrations whose one-step set contains c and, where behaviours are tabulated, whose start discriminates c (it
   /// is a facet of the robot's cell there): what can test c. Ascending; none for constraints that are not in

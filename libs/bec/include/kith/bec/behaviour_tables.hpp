@@ -26,7 +26,7 @@ class BehaviourTables {
  public:
   [[nodiscard]] const PolicyCells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::size_t num_hulls() const noexcept { return hulls_.size(); }
-  [[nodiscard]] HullIndex hull(StartIndex demo) const { return starts_[demo.value()].hull; }
+  [[nodiscard]] HullIndex hull(StartIndex start) const { return starts_[start.value()].hull; }
   [[nodiscard]] const Hull& hull(HullIndex h) const { return hulls_[h.value()]; }
 
   /// Vertices of the coverage set of every start state: in all and at most.
@@ -37,14 +37,14 @@ class BehaviourTables {
   };
   [[nodiscard]] const Coverage& coverage() const noexcept { return coverage_; }
   /// The feature counts of the coverage set of a start state, sorted.
-  [[nodiscard]] std::vector<IntegerVector> coverage_set(StartIndex demo) const;
+  [[nodiscard]] std::vector<IntegerVector> coverage_set(StartIndex start) const;
   /// Feature counts of the path that a person of this cell takes, or nothing if they have no optimum there.
-  [[nodiscard]] std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell) const;
+  [[nodiscard]] std::optional<IntegerVector> answer(StartIndex start, PolicyCellIndex cell) const;
   /// Whether weights have a finite optimum in the demonstration's MDP (strictly inside its region).
-  [[nodiscard]] const Cone& finite_region(StartIndex demo) const { return hull(hull(demo)).finite_region; }
+  [[nodiscard]] const Cone& finite_region(StartIndex start) const { return hull(hull(start)).finite_region; }
   /// Constraints that tell the robot's path from the next best ones at the start: the facets of its cell in the
   /// coverage set.
-  [[nodiscard]] const ConstraintSet& robot_cell_facets(StartIndex demo) const { return facets_[hull(demo).value()]; }
+  [[nodiscard]] const ConstraintSet& robot_cell_facets(StartIndex start) const { return facets_[hull(start).value()]; }
 
   /// What demonstrations convey to people who hold weights of the given cells: per class, one row of words, the union
   /// over cells and over the states s_t of the path of mu_robot(s_t) - mu_learner(s_t). Cells without an optimum in the

@@ -35,7 +35,7 @@ class PartitionStore {
   /// The states of an MDP on candidates' paths, ascending: those whose counts are known.
   [[nodiscard]] std::span<const StateIndex> states(MdpIndex m) const { return states_[m.value()]; }
   /// A demonstration's position among those of its MDP, or -1.
-  [[nodiscard]] std::int32_t place(StartIndex demo) const { return places_[demo.value()]; }
+  [[nodiscard]] std::int32_t place(StartIndex start) const { return places_[start.value()]; }
 
   /// About how much all partitions take, in bytes.
   [[nodiscard]] std::size_t memory() const noexcept { return *bytes_; }
@@ -67,7 +67,7 @@ class PolicyPartitions {
 
   /// See PartitionStore.
   [[nodiscard]] std::span<const StateIndex> states(MdpIndex m) const { return store_->states(m); }
-  [[nodiscard]] std::int32_t place(StartIndex demo) const { return store_->place(demo); }
+  [[nodiscard]] std::int32_t place(StartIndex start) const { return store_->place(start); }
 
   /// Finds out what people with these weights do in an MDP; nothing unless can_be_partitioned(), else what was found,
   /// which is valid until the next call, and whether they have an optimum.
@@ -134,13 +134,13 @@ class Behaviours {
 
   /// Feature counts of what people of this cell do from a candidate start or a state on the robot's path from one, or
   /// nothing if they have no optimum there.
-  std::optional<IntegerVector> answer(StartIndex demo, PolicyCellIndex cell);
+  std::optional<IntegerVector> answer(StartIndex start, PolicyCellIndex cell);
 
   /// The weights of a cell that locate() gave. @pre the atlas has no tables: then each cell is of one person's weights.
   [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const;
   /// The path that people with these weights take from there, or the likeliest one; nothing if they have no optimum.
   /// Planned anew at every call.
-  [[nodiscard]] std::optional<Trajectory> trajectory(StartIndex demo, const Direction& weights) const;
+  [[nodiscard]] std::optional<Trajectory> trajectory(StartIndex start, const Direction& weights) const;
 
   /// What demonstrations convey, by demonstration class.
   struct Conveyed {
@@ -156,7 +156,7 @@ class Behaviours {
   /// components' classes may be empty. The result stays valid until the next call.
   Conveyed conveyed_by_class(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
   /// The same for one candidate, not reduced.
-  ConstraintSet conveyed(StartIndex demo, std::span<const PolicyCellIndex> cells);
+  ConstraintSet conveyed(StartIndex start, std::span<const PolicyCellIndex> cells);
 
  private:
   const Atlas* atlas_;

@@ -158,7 +158,7 @@ class Domain {
 
   /// How much there is to look at: optional things present in the start state
   /// (terrain cells and stations that are toggled, plus stations still there). 0 without a map.
-  [[nodiscard]] int complexity(StartId demo) const;
+  [[nodiscard]] int complexity(StartId start) const;
   /// How different two start pictures are:
   ///   2 * sum |differences of the state's coordinates and flags| (over their common length)
   ///   + number of optional groups other than stations that differ + |difference of station counts|.

@@ -40,7 +40,7 @@ enum class Doubt {
 struct TellingAnswer {
   std::size_t period = 0;
   std::size_t test = 0;  ///< 1-based within the period.
-  StartIndex demo;
+  StartIndex start;
   /// How many times as probable the answer is from people who violate the constraint as from those who satisfy it,
   /// among all who know the prior; nothing if nobody who satisfies it gives it.
   std::optional<double> factor{};

@@ -11,7 +11,7 @@ namespace kith {
 
 /// The robot's path beside one that somebody could expect in its place. Where chance has a part both are the likeliest.
 struct Contrast {
-  StartIndex demo;
+  StartIndex start;
   Trajectory robot;
   Trajectory alternative;      ///< From the same start; as long together with the robot's path as it can be.
   IntegerVector robot_counts;  ///< Of the whole path, or expected; shape [d], in units of 1 / Domain::count_scale().
@@ -26,7 +26,7 @@ struct Contrast {
 /// @param vertex  one of the coverage set of that state; not the robot's own.
 /// @throws std::invalid_argument if there is no such position, or the vertex is none of the coverage set, or the
 /// robot's own.
-[[nodiscard]] Contrast contrast_with(const Atlas& atlas, StartIndex demo, std::size_t from,
+[[nodiscard]] Contrast contrast_with(const Atlas& atlas, StartIndex start, std::size_t from,
                                      const IntegerVector& vertex);
 
 /// The constraint that a contrast conveys: preference_of_robot() of what the robot's path counts beyond the other one.
@@ -56,23 +56,24 @@ struct Contrast {
 /// that somebody expects and that differs from the robot's by a multiple of the constraint's normal; where nobody
 /// knows what people expect (Atlas::find_tables()), with the path that such a single other action begins, after which
 /// the robot goes on as ever. Of several the smallest multiple. Nothing if there is none.
-[[nodiscard]] std::optional<Contrast> contrast_for(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint);
+[[nodiscard]] std::optional<Contrast> contrast_for(const Atlas& atlas, StartIndex start, const HalfSpace& constraint);
 
 /// The same for people: without tables, with the path that one of them expects, from the earliest state where theirs
 /// conveys the constraint; failing that, with a single other action.
-[[nodiscard]] std::optional<Contrast> contrast_for(Behaviours& behaviours, StartIndex demo, const HalfSpace& constraint,
+[[nodiscard]] std::optional<Contrast> contrast_for(Behaviours& behaviours, StartIndex start,
+                                                   const HalfSpace& constraint,
                                                    std::span<const PolicyCellIndex> people);
 
 /// Of the paths that somebody could expect from the start, the one that is best for the robot among those that `admits`
 /// accepts; the robot's own is none of them. Nothing if none is accepted.
 template <typename Predicate>
-[[nodiscard]] std::optional<Contrast> best_contrast(const Atlas& atlas, StartIndex demo, const Predicate& admits) {
+[[nodiscard]] std::optional<Contrast> best_contrast(const Atlas& atlas, StartIndex start, const Predicate& admits) {
   const auto& weights = atlas.domain().weights().integer;
   std::optional<Contrast> best;
-  for (const auto& vertex : atlas.tables().coverage_set(demo)) {
-    if (vertex == atlas.feature_counts(demo)) continue;
+  for (const auto& vertex : atlas.tables().coverage_set(start)) {
+    if (vertex == atlas.feature_counts(start)) continue;
     if (best && dot(weights, vertex) <= dot(weights, best->alternative_counts)) continue;
-    auto contrast = contrast_with(atlas, demo, 0, vertex);
+    auto contrast = contrast_with(atlas, start, 0, vertex);
     if (admits(contrast)) best = std::move(contrast);
   }
   return best;
@@ -80,7 +81,7 @@ template <typename Predicate>
 
 /// A world like another one in which the robot decides differently.
 struct Flip {
-  StartIndex demo;                   ///< The same start there.
+  StartIndex start;                  ///< The same start there.
   Trajectory robot;                  ///< The robot's path there.
   std::vector<std::size_t> toggled;  ///< Positions in Domain::optional_groups() of what differs.
 };
@@ -92,7 +93,7 @@ struct Flip {
 
 /// The start of a demonstration in another world: the robot and what it carries are the same, things that only one of
 /// the worlds has are there or not. Nothing if that world has no such state.
-[[nodiscard]] std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex demo, MdpIndex world);
+[[nodiscard]] std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex start, MdpIndex world);
 
 /// How worlds differ: "without the rubble at (2,1)", "with the charger at (4,1) and without the rubble at (2,1)".
 /// @param toggled  positions in Domain::optional_groups() at which `world` differs from another one.

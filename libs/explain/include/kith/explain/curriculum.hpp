@@ -15,7 +15,7 @@ namespace kith {
 
 /// A demonstration as people see it.
 struct CurriculumDemonstration {
-  StartIndex demo;
+  StartIndex start;
   std::vector<HalfSpace> conveys;  ///< What it conveys, minimal, sorted; without what is known beforehand.
   HalfSpace main;                  ///< The one that narrows most what was taught before; the reason's.
   Contrast contrast;               ///< With the path that a person who does not know `main` would expect.
@@ -32,7 +32,7 @@ enum class Difficulty { kEasy, kMedium, kHard };
 
 /// A test, and how hard it is for those who have not been taught its component.
 struct CurriculumTest {
-  StartIndex demo;
+  StartIndex start;
   std::vector<HalfSpace> covers;   ///< Taught constraints that the robot's path is about.
   bool is_shortest_wrong = false;  ///< Test::is_shortest_wrong
   /// Share of the beliefs that answer right, in [0, 1]: beliefs are uniform over what was known before the component.

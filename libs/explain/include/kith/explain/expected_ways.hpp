@@ -18,6 +18,6 @@ struct ExpectedWay {
 /// order of counts. Of the ways that hardly anybody expects some may be missing. Where behaviours are tabulated,
 /// BehaviourTables::coverage_set() has all of them.
 /// @param n  about how many people. @throws std::invalid_argument if it is 0.
-[[nodiscard]] std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, StartIndex demo, std::size_t n = 500);
+[[nodiscard]] std::vector<ExpectedWay> expected_ways(Behaviours& behaviours, StartIndex start, std::size_t n = 500);
 
 }  // namespace kith

@@ -10,7 +10,7 @@ namespace kith {
 
 /// A demonstration that shows part of an answer.
 struct Example {
-  StartIndex demo;
+  StartIndex start;
   Trajectory path;                        ///< The robot's.
   std::string text;                       ///< One sentence: what it shows, and why.
   std::optional<Trajectory> alternative;  ///< The path that the sentence compares with.

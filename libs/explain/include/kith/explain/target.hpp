@@ -22,7 +22,7 @@ enum class Purpose {
 /// Whether a demonstration conveys exactly the constraint to those who know the prior: with it, the one-step set of the
 /// path (kTeach) or the facets of the robot's cell in the coverage set of the start (kTest) leave the same weights as
 /// the constraint does.
-[[nodiscard]] bool isolates(const Atlas& atlas, StartIndex demo, const HalfSpace& constraint, Purpose purpose);
+[[nodiscard]] bool isolates(const Atlas& atlas, StartIndex start, const HalfSpace& constraint, Purpose purpose);
 
 /// The simplest demonstration that isolates the constraint: the least to look at (Domain::complexity), then the
 /// shortest path, then the lowest index. Nothing if there is none.

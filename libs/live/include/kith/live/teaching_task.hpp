@@ -14,7 +14,7 @@ namespace kith {
 
 /// A demonstration that the teacher would have shown if it could not have shown those before it.
 struct RunnerUp {
-  StartIndex demo;
+  StartIndex start;
   double gain = 1.0;
   std::vector<HalfSpace> half_spaces;
 };

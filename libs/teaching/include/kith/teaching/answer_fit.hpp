@@ -58,7 +58,7 @@ class AnswerFit {
 
   /// An answer that was given.
   struct Given {
-    StartIndex demo;
+    StartIndex start;
     IntegerVector counts;
   };
   [[nodiscard]] std::span<const Given> given() const noexcept { return given_; }

@@ -29,7 +29,7 @@ struct SourceBelief {
 
 /// A trajectory of the robot that is shown, and what it conveys.
 struct Demonstration {
-  StartIndex demo;
+  StartIndex start;
   std::vector<HalfSpace> half_spaces;      ///< D: minimal set of what it conveys to the counterfactuals; sorted.
   double gain = 1.0;                       ///< Area of the taught region before / after, > 1 when chosen for it.
   std::size_t num_new = 0;                 ///< New facets of the taught region.
@@ -47,7 +47,7 @@ struct Unit {
 
 /// A start state for which people are asked what the robot would do.
 struct Test {
-  StartIndex demo;
+  StartIndex start;
   std::vector<HalfSpace>
       covered;        ///< The examined constraints that the robot's path shows and that its feedback teaches.
   bool exact = true;  ///< False: no start tests the constraint itself; this one tests the nearest.

@@ -15,7 +15,7 @@ struct ObservedPeriod {
   /// Index into Atlas::knowledge_components(). Nothing: a board of an exam, after all lessons, one test, which teaches
   /// nothing.
   std::optional<std::size_t> component;
-  std::vector<Demonstration> demonstrations;  ///< Only `demo` and `half_spaces` are read.
+  std::vector<Demonstration> demonstrations;  ///< Only `start` and `half_spaces` are read.
   std::vector<Test> tests;
   std::vector<Answer> answers;      ///< One per test; none where the person gave none.
   std::vector<Verdict> verdicts;    ///< One per test.

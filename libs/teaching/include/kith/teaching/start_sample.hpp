@@ -26,7 +26,7 @@ class StartSample {
   [[nodiscard]] static StartSample spread_over_facets(const Atlas& atlas, std::size_t component);
 
   [[nodiscard]] std::size_t size() const noexcept { return starts_.size(); }
-  [[nodiscard]] StartIndex start(std::size_t i) const { return starts_[i].demo; }
+  [[nodiscard]] StartIndex start(std::size_t i) const { return starts_[i].start; }
   /// Of a start; they sum to 1.
   [[nodiscard]] double weight(std::size_t i) const { return starts_[i].weight; }
 
@@ -40,13 +40,13 @@ class StartSample {
 
  private:
   struct Start {
-    StartIndex demo;
+    StartIndex start;
     double weight = 0.0;
     std::vector<std::uint32_t> cell;  // positions in half_spaces_
   };
   StartSample() = default;
   [[nodiscard]] std::vector<std::vector<char>> misses(std::span<const std::span<const double>> axes) const;
-  void add(const Atlas& atlas, StartIndex demo, double weight);
+  void add(const Atlas& atlas, StartIndex start_index, double weight);
   void finish(const Atlas& atlas);
 
   std::vector<Start> starts_;

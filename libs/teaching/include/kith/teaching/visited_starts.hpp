@@ -14,11 +14,11 @@ class VisitedStarts {
   /// None of `num_states`.
   explicit VisitedStarts(std::size_t num_states) : is_visited_(num_states, false) {}
 
-  [[nodiscard]] bool contains(StartIndex demo) const { return is_visited_[demo.value()]; }
-  void insert(StartIndex demo) {
-    if (contains(demo)) return;
-    is_visited_[demo.value()] = true;
-    in_order_.push_back(demo);
+  [[nodiscard]] bool contains(StartIndex start) const { return is_visited_[start.value()]; }
+  void insert(StartIndex start) {
+    if (contains(start)) return;
+    is_visited_[start.value()] = true;
+    in_order_.push_back(start);
   }
   /// In the order in which they were met.
   [[nodiscard]] std::span<const StartIndex> in_order() const noexcept { return in_order_; }
