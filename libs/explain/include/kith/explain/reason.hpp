@@ -8,7 +8,7 @@
 namespace kith {
 
 /// What the robot does, rather than what: "it would rather take 2 more steps than cross rubble", "it will not take 5
-/// more steps to stop at the charger"; kAllInAll where more than two things differ, or it would be longer than kMostWords.
+/// more steps to stop at the charger"; kAllInAll where more than two things differ, or for more than kMostWords.
 ///
 /// Compares the feature counts of the robot's path with those of another one, in the verbs of the domain's
 /// [words]; what has none is accepted or chosen. What both
