@@ -6,7 +6,7 @@
 # stays as it is. Tests of the pages run where Chromium is installed.
 find_program(KITH_NODE NAMES node nodejs DOC "Node.js, which bundles the pages")
 find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
-find_program(KITH_CHROMIUM NAMES chromium-headless-shell chromium DOC "Browser that tests the pages")
+find_program(KITH_CHROMIUM NAMES chromium chromium-headless-shell DOC "Browser that tests the pages")
 mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
 # Of tests in a browser: one of files and one of pages that a server sends at a time, and first, because they take
@@ -100,7 +100,7 @@ function(kith_test_web_pages source build)
   add_test(NAME web.DoorRules COMMAND ${KITH_NODE} ${source}/tests/door_rules_test.mjs --modules ${build})
   set_tests_properties(web.Types web.DoorRules PROPERTIES LABELS web)
   if(NOT KITH_CHROMIUM)
-    message(STATUS "No Chromium: pages are not tested in a browser (apt-get install chromium-headless-shell)")
+    message(STATUS "No Chromium: pages are not tested in a browser (apt-get install chromium)")
     return()
   endif()
   set(sample ${source}/sample/report.json)

@@ -14,7 +14,7 @@ packages_to_build=(
 packages_for_python=(pybind11-dev python3-dev python3-numpy python3-pandas)
 packages_for_site=(python3-sphinx python3-myst-parser doxygen)
 packages_to_pack=(dpkg-dev file libopenmpi-dev)  # cpack asks `file` what needs shared libraries
-packages_to_test=(libgtest-dev libgmock-dev chromium-headless-shell libopenmpi-dev openmpi-bin)
+packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
 packages_for_lesson=(emscripten xz-utils)  # LLVM for WebAssembly; what packs the page
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
   firefox-esr
