@@ -114,7 +114,9 @@ void Views::await_news() {
 void Views::tick() {
   post([this] {
     if (watchers_.empty()) return;
-    for (const auto& [number, room] : std::exchange(changed_, {})) take_picture(room);
+    const auto changed = std::exchange(changed_, {});
+    for (const auto& [number, room] : changed) take_picture(room);
+    if (pictures_.empty() && !changed.empty()) return;  // the first page has its rooms
 
     // The page of many rooms is large, and something happens in one of them all the time.
     const bool is_awaited = ticks_awaited_ > 0;

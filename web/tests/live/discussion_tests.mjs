@@ -90,8 +90,7 @@ function exported(kith, { folder, session }) {
 async function seesWhoChanged(setting, { facilitator }) {
   const { page } = await openPerson(setting.browser, facilitator);
   await page.goto(facilitator);
-  await page.click('nav button:text-is("Live")');
-  await page.waitForSelector('.answer-cell.wrong');
+  await page.waitForSelector('.answer-cell.wrong', { state: 'attached' });
   const texts = await page.$$eval('.answer-cell [role=img]', (cells) => cells.map((cell) => cell.getAttribute('aria-label')));
   assert.deepEqual(texts.map((text) => /, then changed to a right one$/.test(text)), texts.map((text) => text.startsWith('wrong')));
   await page.context().close();
