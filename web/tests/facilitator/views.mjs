@@ -82,7 +82,7 @@ function seatsOf(random, now, room, size, stage) {
       presence: isAway ? 'away' : stage === 'lobby' && i > 1 && !isSimulated ? 'empty' : 'here',
       since_ms: now - (isAway ? 34 * kSecond : Math.round(random.uniform() * 50) * kSecond),
       stage: stage === 'lobby' ? 'lobby' : stage === 'ended' ? 'debrief' : i % 4 === 1 ? 'wait' : 'predict',
-      estimate: { value: 0.66 + 0.2 * random.uniform(), low: 0.58, high: 0.9 },
+      estimate: 0.66 + 0.2 * random.uniform(),
     };
     if (isSimulated) return row;
     return {
