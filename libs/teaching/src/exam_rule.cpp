@@ -86,7 +86,7 @@ std::string predicts(const TeachingOptions& options) {
 
 constexpr std::string_view kMaxRegret = "max_regret";
 
-constexpr std::array kRegretParameters{Parameter{
+const std::array kRegretParameters{Parameter{
     .name = kMaxRegret,
     .default_value = 0.05,
     .description = "how much of the robot's return everybody may lose per start on average, in units of the weights",
