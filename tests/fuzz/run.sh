@@ -133,13 +133,13 @@ minimize() {  # TARGET
 groups='
 TOML             libs/files/src/
 tables           libs/files/src/csv_re
-domain files     libs/domains/src/(read_grid|read_map|(domain_file|read_|condition|exact_vector|reward|wording))
+domain files     libs/domains/src/(domain_file|read_|condition|exact_vector|reward|wording|grid_map|layers|rasters)
 explicit models  libs/domains/src/(.*model|explicit_family)
 policies         libs/domains/src/policy_file
 study files      libs/study/src/(study_file|read_study_spec|read_prior)
 tables of runs   libs/study/src/read_records
-targets files    libs/analysis/src/(findings|effect|quantity)
-logs of people   libs/fit/src/(import_trials|import_run|open_table|vectors)
+targets files    libs/analysis/src/(findings|effect)
+logs of people   libs/fit/src/(import_|open_table)
 record codec     libs/(runs/src/team_codec|files/src/bytes)
 journal          libs/(runs/src/journal|files/src/sqlite)
 '

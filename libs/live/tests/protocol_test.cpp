@@ -17,7 +17,7 @@ void expect_printed(const std::string& file, const std::string& text) {
   std::ifstream in{path};
   EXPECT_EQ((std::string{std::istreambuf_iterator<char>{in}, {}}), text)
       << "web/src/" << file << " is not what libs/live says of its messages and views. Print it anew:\n"
-      << "  KITH_PRINT_PROTOCOL=1 ctest --preset release -R live.Protocol";
+      << "  KITH_PRINT_PROTOCOL=1 kith_live_tests --gtest_filter='Protocol.*'";
 }
 
 constexpr std::string_view kPrinted =
