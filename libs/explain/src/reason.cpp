@@ -27,10 +27,9 @@ std::string deed(const Wording& wording, std::int64_t n, bool more, bool is_cost
   return (is_cost ? "accept " : "choose ") + (more ? times_more(wording, n) : times(wording, n));
 }
 
-// What `taken` has and `spared` has not; as a choice of two things at most.
+// What `taken` has and `spared` has not.
 std::string compared(const Domain& domain, const IntegerVector& own, const IntegerVector& other) {
   Surplus taken, spared;
-  std::size_t things = 0;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const auto n = own[k] - other[k];
     if (n == 0) continue;
@@ -38,10 +37,8 @@ std::string compared(const Domain& domain, const IntegerVector& own, const Integ
     auto& side = n > 0 ? taken : spared;
     (is_cost ? side.costs : side.gains)
         .push_back(deed(domain.wording(k), std::abs(n), own[k] != 0 && other[k] != 0, is_cost));
-    ++things;
   }
 
-  if (things > kMostThings) return kAllInAll;
   if (sign_of_dot(domain.weights().integer, own - other) == 0) {
     if (spared.empty()) return "it may as well " + taken.words();
     return "it may as well " + (taken.empty() ? "not " + spared.words() : taken.words() + " as " + spared.words());
@@ -71,6 +68,7 @@ void check(const Domain& domain, const IntegerVector& robot, const IntegerVector
 
 std::string choice_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative) {
   check(domain, robot, alternative);
+  if (((robot - alternative).array() != 0).count() > kMostThings) return kAllInAll;
   auto sentence = compared(domain, robot, alternative);
   return std::count(sentence.begin(), sentence.end(), ' ') < kMostWords ? sentence : kAllInAll;
 }

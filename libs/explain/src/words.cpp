@@ -340,8 +340,9 @@ std::string on_average_in_words(const Domain& domain, const IntegerVector& diffe
     const bool is_all = (!best || counts[*best] != 0) && (!worst || counts[*worst] != 0);
     if (!is_all || !best || sign_of_dot(domain.weights().integer, counts) <= 0) continue;
     IntegerVector both(d);  // a single thing is said to be more of it
-    if (!worst) both[*best] = 1;
-    return "in " + std::to_string(tries) + " tries " + choice_in_words(domain, counts + both, both);
+    if (!worst) both[*best] = 1 + std::abs(counts[*best]);
+    const auto choice = choice_in_words(domain, counts + both, both);
+    return choice == kAllInAll ? choice : "in " + std::to_string(tries) + " tries " + choice;
   }
   return kAllInAll;
 }

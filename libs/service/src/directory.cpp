@@ -95,6 +95,11 @@ std::optional<Place> Directory::seat_of(const std::string& person) const {
   return place_of({.room = found->second.first, .seat = found->second.second});
 }
 
+bool Directory::notes(std::string_view type) {
+  return type == happening::Joined::kKind.word || type == happening::Consented::kKind.word ||
+         type == happening::Declined::kKind.word || type == happening::Released::kKind.word;
+}
+
 void Directory::note(std::int64_t room, const std::string& actor, const std::string& type, const Json& body) {
   const auto is = [&](const RoomEventKind& kind) { return type == kind.word; };
   const auto by_actor = static_cast<std::int64_t>(seat_of_actor(actor).value_or(0));

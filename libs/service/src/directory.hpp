@@ -7,8 +7,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +63,8 @@ class Directory {
   void seat(const Place& place, const std::string& person, const Json& query);
   [[nodiscard]] std::optional<Place> seat_of(const std::string& person) const;
   // What the events of a room say of who sits where.
+  /// Whether note() makes anything of events of a type.
+  [[nodiscard]] static bool notes(std::string_view type);
   void note(std::int64_t room, const std::string& actor, const std::string& type, const Json& body);
 
   // Connections.

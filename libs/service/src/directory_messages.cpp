@@ -91,6 +91,7 @@ void Directory::attend(const ConnectionPtr& connection) {
   const auto [number, place] = place_of(connection->identity);
   const auto room = room_of(number);
   room->post([this, connection, room, place = place] {
+    if (connection->is_closed) return;  // another one may have the page by now
     const auto seat = static_cast<std::size_t>(place);
     auto& pages = room->pages();
     const auto attend_there = [this, connection] { service_.post([this, connection] { attend(connection); }); };

@@ -65,7 +65,7 @@ void JoinDesk::join(const LiveService::HttpRequest& request, const HttpAnswer& a
   // Whoever is asked in a browser that has joined before says so, unless the link itself tells people apart.
   if (visit->person.empty() && body.value("has_joined", Json{}) == true)
     return answer(json_reply(200, {{"ask", true}}));
-  turns_.take([this, visit] { find_seat(visit); });
+  turns_.take([this, visit] { guarded(visit, [&] { find_seat(visit); }); });
 }
 
 std::optional<LiveService::HttpReply> JoinDesk::refusal_for(const Visit& visit) {
@@ -93,6 +93,16 @@ std::optional<LiveService::HttpReply> JoinDesk::refusal_for(const Visit& visit) 
   if (is_known) return std::nullopt;
   wrong_codes_[visit.remote].push_back(now);
   return error_reply(404, "no-room", "There is no group with this code.");
+}
+
+// Whatever goes wrong in a step, whoever waits gets an answer, and the next one a turn.
+template <typename Step>
+void JoinDesk::guarded(const VisitPtr& visit, const Step& step) {
+  try {
+    step();
+  } catch (const std::exception&) {
+    finish(visit, error_reply(500, "internal", "An unexpected error occurred on the server."));
+  }
 }
 
 void JoinDesk::find_seat(const VisitPtr& visit) {
@@ -131,8 +141,7 @@ void JoinDesk::take_seat(const VisitPtr& visit, const std::shared_ptr<HostedRoom
   const auto done = [this, visit, room](std::int64_t seat) {
     service_.post([this, visit, room, seat] {
       if (visit->is_over) return;
-      if (seat == 0) return try_next(visit);
-      give_link(visit, {room->number(), seat}, true);
+      guarded(visit, [&] { seat == 0 ? try_next(visit) : give_link(visit, {room->number(), seat}, true); });
     });
   };
   room->post([room, done] {
@@ -145,7 +154,7 @@ void JoinDesk::take_seat(const VisitPtr& visit, const std::shared_ptr<HostedRoom
 void JoinDesk::make_room(const VisitPtr& visit) {
   service_.maker.make(Json::object(), "server", {}, [this, visit](const RoomMaker::Made& made) {
     visit->open.assign(made.rooms.begin(), made.rooms.end());
-    try_next(visit);
+    guarded(visit, [&] { try_next(visit); });
   });
 }
 

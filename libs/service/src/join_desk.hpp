@@ -30,6 +30,8 @@ class JoinDesk {
   using VisitPtr = std::shared_ptr<Visit>;
 
   [[nodiscard]] std::optional<LiveService::HttpReply> refusal_for(const Visit& visit);
+  template <typename Step>
+  void guarded(const VisitPtr& visit, const Step& step);
   void find_seat(const VisitPtr& visit);
   void try_next(const VisitPtr& visit);
   void take_seat(const VisitPtr& visit, const std::shared_ptr<HostedRoom>& room);

@@ -16,7 +16,7 @@
 namespace kith {
 namespace {
 
-constexpr std::size_t kStrandThreads = 3;  // one of them may be exporting
+constexpr std::size_t kStrandThreads = 4;  // one of them may be exporting, one making rooms
 constexpr std::size_t kStrandCacheBytes = std::size_t{8} << 20;
 constexpr auto kTick = std::chrono::milliseconds{100};
 constexpr std::size_t kJoinCodeLength = 8;
@@ -72,7 +72,12 @@ ServiceState::ServiceState(std::shared_ptr<const LiveStudy> live_study, LiveServ
       caches{study->atlas, kStrandCacheBytes},
       teachers{study->atlas, options.teaching_workers, options.cache_bytes, busy},
       strands{kStrandThreads, busy} {
-  load();
+  try {
+    load();
+  } catch (...) {  // before anything goes that jobs still use
+    stop();
+    throw;
+  }
 }
 
 std::int64_t ServiceState::links_expire_us() const { return now_us() + options.token_hours * 3600 * kSecond; }
@@ -131,9 +136,12 @@ void ServiceState::load() {
 void ServiceState::on_applied(HostedRoom& room, std::span<const RoomEvent> events) {
   for (const auto& event : events) {
     const std::string type{event.kind().word};
+    const bool is_told = is_logged(event.actor, type), is_noted = Directory::notes(type);
+    if (!is_told && !is_noted) continue;
     const auto body = body_of(event);
     if (const auto* joined = event.get<happening::Joined>()) room.pages().take(joined->seat);
-    if (is_logged(event.actor, type)) views.write(log_entry(room.number(), event.at_us, event.actor, type, body));
+    if (is_told) views.write(log_entry(room.number(), event.at_us, event.actor, type, body));
+    if (!is_noted) continue;
     post(
         [this, number = room.number(), actor = event.actor, type, body] { directory.note(number, actor, type, body); });
   }
@@ -150,6 +158,7 @@ void ServiceState::check_space(std::int64_t now) {
 }
 
 void ServiceState::tick() {
+  if (is_stopping) return;
   post([this] {
     check_space(now_us());
     directory.tick();
@@ -201,6 +210,7 @@ LiveService::StartLinks LiveService::start_links() {
 std::vector<std::string> LiveService::make_rooms(std::size_t count, const std::vector<std::string>& seats) {
   std::vector<std::string> tokens;
   while (count > 0) {
+    if (state_->is_stopping) throw Error{ErrorKind::kIo, "The server is stopping."};
     const auto now = std::min(count, RoomMaker::kMostAtOnce);
     Json body{{"count", now}, {"reason", "kith serve"}};
     if (!seats.empty()) body["seats"] = seats;
@@ -221,6 +231,7 @@ std::size_t LiveService::num_rooms() const { return state_->directory.num_groups
 std::size_t LiveService::num_sessions() const { return state_->num_sessions; }
 
 void LiveService::set_base_url(std::string url) {
+  if (state_->is_stopping) return;
   state_->post([&state = *state_, url = std::move(url)] { state.directory.set_base_url(url); });
 }
 

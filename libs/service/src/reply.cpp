@@ -37,7 +37,6 @@ const std::vector<std::pair<std::string, std::string>>& security_headers() {
 }
 
 std::string_view reason_phrase(int status) noexcept {
-  if (status == 421) return "Misdirected Request";
   if (status == 413) return "Content Too Large";
   const auto phrase = boost::beast::http::obsolete_reason(static_cast<boost::beast::http::status>(status));
   return phrase == "<unknown-status>" ? std::string_view{} : std::string_view{phrase.data(), phrase.size()};

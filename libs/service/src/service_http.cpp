@@ -134,7 +134,13 @@ void ServiceState::serve(const std::string& route, const LiveService::HttpReques
   if (route == "POST /api/join") return joins.join(request, answer);
   if (route == "GET /api/texts") return answer(json_reply(200, language_json(*study)));
   if (route == "GET /api/world") {
-    return answer_on(pages, answer, [=, this] { answer(world_reply(*study, target.key)); });
+    return answer_on(pages, answer, [=, this] {
+      const auto known = worlds.find(target.key);
+      if (known != worlds.end()) return answer(known->second);
+      const auto reply = world_reply(*study, target.key);
+      if (reply.status == 200) worlds[target.key] = reply;
+      answer(reply);
+    });
   }
   if (route == "GET /api/integrity") {
     return views.integrity(directory.num_unsaved(), [answer](const Json& counts) { answer(json_reply(200, counts)); });

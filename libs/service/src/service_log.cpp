@@ -69,11 +69,16 @@ void ServiceLog::carry_out(const std::string& id, Reply reply, const std::functi
   auto& waiting = open_[id];
   waiting.push_back(std::move(reply));
   if (waiting.size() > 1) return;
-  act([this, id](const std::optional<Refusal>& refusal) {
-    if (!refusal) seen_.insert(id);
-    const auto senders = open_.extract(id);
-    for (const auto& send : senders.mapped()) send(refusal);
-  });
+  try {
+    act([this, id](const std::optional<Refusal>& refusal) {
+      if (!refusal) seen_.insert(id);
+      const auto senders = open_.extract(id);
+      for (const auto& send : senders.mapped()) send(refusal);
+    });
+  } catch (...) {  // so that it can be sent again
+    open_.erase(id);
+    throw;
+  }
 }
 
 }  // namespace kith

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,8 +49,9 @@ struct ServiceState {
   TeachingPool teachers;
   Strands strands;
   Strand desk = strands.make();
-  Strand pages = strands.make();    // worlds
-  Strand exports = strands.make();  // which take long
+  Strand pages = strands.make();                         // worlds
+  std::map<std::string, LiveService::HttpReply> worlds;  // on `pages`: everybody asks for the same few
+  Strand exports = strands.make();                       // which take long
 
   // On the strand of the desk.
   ServiceLog log{*this};

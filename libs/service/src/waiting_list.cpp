@@ -12,9 +12,8 @@ namespace {
 
 // What happens in a new room: people from the waiting list take their seats.
 StoreBatch first_events(const std::shared_ptr<const LiveStudy>& study, const Room& list, const PlannedGroup& group,
-                        const RoomSetup& setup, std::int64_t now_us) {
+                        const RoomSetup& setup, TeachingCache& cache, std::int64_t now_us) {
   StoreBatch batch;
-  TeachingCache cache{study->atlas};
   Room room{study, setup, cache};
   for (std::size_t m = 0; m < group.seats.size(); ++m) {
     if (!group.seats[m]) continue;
@@ -41,7 +40,6 @@ void WaitingList::make() {
   if (!service_.study->seats_by_ability() || directory.waiting_list() != 0) return;
   auto setup = service_.maker.numbers().setup_for("waiting list", "", {});
   setup.is_waiting_list = true;
-  setup.replicate = 1;
   StoredRoom stored{.number = room_number(setup.id), .setup = to_json(setup).dump(), .created_us = service_.now_us()};
   service_.store.file().write(std::vector{StoreBatch{.rooms = {stored}}});
   const auto room = std::make_shared<HostedRoom>(service_, std::move(stored), std::move(setup));
@@ -68,7 +66,9 @@ void WaitingList::form_group(HostedRoom& list) {
   const StoredRoom stored{.number = room_number(setup.id), .setup = to_json(setup).dump(), .created_us = list.now()};
   StoreBatch batch;
   try {
-    batch = first_events(service_.study, *list.room(), *group, setup, list.now());
+    service_.caches.lend([&](TeachingCache& cache) {
+      batch = first_events(service_.study, *list.room(), *group, setup, cache, list.now());
+    });
   } catch (const std::exception& error) {
     return service_.views.trouble(list.number(), std::string{"a group cannot be formed: "} + error.what());
   }

@@ -68,7 +68,7 @@ class LiveService final : public LiveApplication {
   [[nodiscard]] StartLinks start_links();
   /// Makes rooms as a facilitator does, and waits until they are on the disk.
   /// @param seats  "person" or a letter for each; none: as the study says. @return tokens of the people's seats.
-  /// @throws kith::Error (kInfeasible) with the reason if that is refused.
+  /// @throws kith::Error (kInfeasible) with the reason if that is refused; kIo once the service stops.
   std::vector<std::string> make_rooms(std::size_t count, const std::vector<std::string>& seats = {});
   /// All rooms but the waiting list, also those that are being rebuilt and that views do not show yet.
   [[nodiscard]] std::size_t num_rooms() const;

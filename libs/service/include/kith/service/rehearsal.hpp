@@ -30,9 +30,9 @@ struct RehearsalOptions {
   std::chrono::milliseconds duration{0};
   std::chrono::milliseconds answer_every{5'000};  ///< How long a person takes for an answer, on average.
   double reconnects = 0.0;                        ///< Share of people who lose their connection, per second.
-  double right = 0.8;                             ///< Share of right answers; others stop a step too early.
+  double right = 0.8;  ///< Share of right answers, where they are known; others stop a step too early.
   /// A right answer; nothing, as without the function, if it is not known. @param world  its key; @param start  number
-  /// of the state. Called from several threads.
+  /// of the state.
   std::function<std::optional<AnswerPath>(const std::string& world, int start)> right_path{};
   /// Called about every 100 ms with the time since the start; false ends the rehearsal.
   std::function<bool(std::chrono::milliseconds elapsed)> on_tick{};
