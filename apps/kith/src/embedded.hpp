@@ -18,7 +18,7 @@ extern const std::string_view kTrialsTemplate;
 // What R runs for `kith analyze --model`.
 extern const std::string_view kAnalysisScript;
 
-// The pages that show a report and a curriculum, made from web/; empty if kith was built without pages.
+// The pages that show a report, a curriculum and an audit, made from web/; empty if kith was built without pages.
 extern const std::string_view kReportPage;
 extern const std::string_view kLessonPage;
 extern const std::string_view kAuditPage;

@@ -198,12 +198,13 @@ class Inspection {
       if (k == reference) continue;
       const auto same = while_others_stay(domain_, atlas_->policy_bec_half_spaces(), k, reference);
       if (same.low || same.high) {
-        const Ratio own{domain_.weights().integer[k], std::abs(domain_.weights().integer[reference])};
-        const auto end = [](const std::optional<Ratio>& ratio) {
-          return ratio ? fmt::format("{:.4g}", ratio->value()) : std::string{"any"};
-        };
-        out_ += fmt::format("  {} weighs {:.4g} times what {} does: {} to {}\n", domain_.wording(k).one, own.value(),
-                            unit, end(same.low), end(same.high));
+        const auto size = domain_.weights().integer[reference];
+        const Ratio own{domain_.weights().integer[k], std::abs(size)};
+        const auto range = !same.high  ? fmt::format("{:.4g} or more", same.low->value())
+                           : !same.low ? fmt::format("{:.4g} or less", same.high->value())
+                                       : fmt::format("{:.4g} to {:.4g}", same.low->value(), same.high->value());
+        out_ += fmt::format("  {} weighs {:.4g}, where {} weighs {}: {}\n", domain_.wording(k).one, own.value(), unit,
+                            size < 0 ? -1 : 1, range);
       } else {
         out_ += "  " + domain_.wording(k).one + " has any weight: no world tests it, and nothing about it is taught\n";
       }

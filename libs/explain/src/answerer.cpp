@@ -126,7 +126,12 @@ std::string Answerer::because(const std::optional<Contrast>& contrast, const std
   if (!contrast) return nothing;
   if (contrast->robot_counts == contrast->alternative_counts) return "the other path is just as good";
   if (!conveyed_by(domain_, *contrast)) return "the other path is worth just as much to it";
-  return has_several(*contrast) && is_detour(domain_, *contrast) ? detour(*contrast) : reason(atlas_, *contrast);
+  if (has_several(*contrast) && is_detour(domain_, *contrast)) return detour(*contrast);
+  // Who asks why is told all of it, too long as it is to keep in mind.
+  const auto said = reason(atlas_, *contrast);
+  const auto all =
+      said == kAllInAll ? in_words(domain_, constraint_of(contrast->robot_counts, contrast->alternative_counts)) : "";
+  return all.empty() ? said : all;
 }
 
 bool Answerer::has_several(const Contrast& contrast) const {

@@ -147,14 +147,14 @@ class Answerer {
   void why_at(StartIndex start_index);
 
   // About the path from the map's start.
-  void why_path(StartIndex start_index);
+  void why_path(StartIndex start);
 
-  void conclude(StartIndex start_index, const std::string& says, const std::optional<Contrast>& contrast,
+  void conclude(StartIndex start, const std::string& says, const std::optional<Contrast>& contrast,
                 const std::string& nothing = "it has no other choice");
 
   // --- what -------------------------------------------------------------------
   void what();
-  void what_on_the_way(StartIndex start_index);
+  void what_on_the_way(StartIndex start);
 
   // --- what if ----------------------------------------------------------------
   void what_if();

@@ -103,7 +103,7 @@ std::string job_in_words(const Domain& domain) {
   }
   if (items.size() > 1 && goals.empty()) return "The robot takes everything to where it belongs.";
   if (goals.size() == 1 && items.empty()) {
-    return "The robot is on its way to the " + goals.front() + (leaves ? ", unless it leaves before." : ".");
+    return "The robot is on its way to the " + goals.front() + (leaves ? ", unless it leaves first." : ".");
   }
   if (goals.size() > 1 && items.empty()) return "The robot is on its way to one of the goals.";
   return "";

@@ -68,7 +68,9 @@ void check(const Domain& domain, const IntegerVector& robot, const IntegerVector
 
 std::string choice_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative) {
   check(domain, robot, alternative);
-  if (((robot - alternative).array() != 0).count() > kMostThings) return kAllInAll;
+  const auto difference = robot - alternative;
+  const auto things = std::count_if(difference.begin(), difference.end(), [](std::int64_t n) { return n != 0; });
+  if (things > static_cast<std::ptrdiff_t>(kMostThings)) return kAllInAll;
   auto sentence = compared(domain, robot, alternative);
   return std::count(sentence.begin(), sentence.end(), ' ') < kMostWords ? sentence : kAllInAll;
 }

@@ -1,5 +1,6 @@
 #include "kith/explain/update.hpp"
 
+#include "kith/core/text.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/teaching/older_robot.hpp"
 
@@ -23,12 +24,6 @@ RobotUpdate plainest(const Atlas& atlas, const Cone& known) {
   return said;
 }
 
-std::string in_turn(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const auto& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
-  return text;
-}
-
 }  // namespace
 
 UpdateInWords update_in_words(const Atlas& atlas, const Cone& known) {
@@ -43,8 +38,8 @@ UpdateInWords update_in_words(const Atlas& atlas, const Cone& known) {
     return words;
   }
   words.text = "The robot has been updated. ";
-  words.text += words.now.empty() ? "It now decides some things differently." : "Now " + in_turn(words.now) + ".";
-  if (!words.still.empty()) words.text += " As before, " + in_turn(words.still) + ".";
+  words.text += words.now.empty() ? "It now decides some things differently." : "Now " + joined(words.now, "; ") + ".";
+  if (!words.still.empty()) words.text += " As before, " + joined(words.still, "; ") + ".";
   return words;
 }
 

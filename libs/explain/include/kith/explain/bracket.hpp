@@ -47,7 +47,7 @@ struct Bracket {
 
 /// The ends of a bracket as numbers without a sign, empty where there is none: of a cost its least and its most, else
 /// those of `low` and `high`. In whole numbers, rounded so that no more is said than is known; one number for two ends
-/// that are within a tenth of it.
+/// that are within 0.1 of it.
 struct BracketEnds {
   std::string from, to;
 };
