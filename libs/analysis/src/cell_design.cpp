@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -133,18 +132,10 @@ Estimable<CellDesign> make_cell_design(std::size_t observations, std::span<const
 
   design.counts.assign(cells, 0);
   for (const auto cell : design.cell_of) ++design.counts[cell];
-  std::vector<double> expected(cells, static_cast<double>(observations));
-  for (std::size_t f = 0; f < factors.size(); ++f) {
-    const auto shares = shares_of(design.factors[f]);
-    for (std::size_t c = 0; c < cells; ++c) expected[c] *= shares[design.level(c, f)];
-  }
-  for (std::size_t c = 0; c < cells; ++c) {
-    if (std::abs(expected[c] - static_cast<double>(design.counts[c])) <= 1e-9 * expected[c]) continue;
-    const auto [least, most] = std::minmax_element(design.counts.begin(), design.counts.end());
-    return Result::impossible(unbalanced + (*least == 0 ? "combinations of levels have no observations"
-                                                        : fmt::format("its cells have {} to {}", *least, *most)));
-  }
-  return design;
+  if (factors.size() < 2 || design.is_balanced()) return design;
+  const auto [least, most] = std::minmax_element(design.counts.begin(), design.counts.end());
+  return Result::impossible(unbalanced + (*least == 0 ? "combinations of levels have no observations"
+                                                      : fmt::format("its cells have {} to {}", *least, *most)));
 }
 
 }  // namespace kith

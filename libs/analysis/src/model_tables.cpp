@@ -94,7 +94,7 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
   std::vector<ResultTable> tables;
   if (data.factors.empty()) return;
   finding.tests.push_back(type_two_tests(result));
-  tables.push_back(anova_table(kAnovaCaption, finding.tests.back(), result.table, true));
+  tables.push_back(anova_table(kAnovaCaption, finding.tests.back(), result.table));
   if (data.factors.size() == 1) tables.push_back(welch_table(data));
   name_methods(data, result, options, finding);
   if (auto means = raw_means_table(data, 1.0 - options.alpha, true)) tables.push_back(std::move(*means));

@@ -46,7 +46,7 @@ void add_as_published(const ModelData& model, const AnalysisOptions& options, Fi
     test.effect = known(table.terms[t].partial_eta_squared);
   }
   finding.tables.push_back(
-      anova_table("Analysis of variance as published, all teams taken as independent (type II)", family, table, true));
+      anova_table("Analysis of variance as published, all teams taken as independent (type II)", family, table));
   finding.tests.push_back(std::move(family));
 }
 

@@ -77,13 +77,11 @@ std::vector<ShownColumn<TermResult>> with_effect_columns(std::vector<ShownColumn
   return columns;
 }
 
-ResultTable anova_table(const std::string& caption, const TestFamily& family, const AnovaTable& table,
-                        bool with_effects) {
+ResultTable anova_table(const std::string& caption, const TestFamily& family, const AnovaTable& table) {
   const std::vector<ShownColumn<TermResult>> columns{
       show(&TermResult::subject, "term", Kind::kText), show(&TermResult::df, "df", Kind::kCount),
       show(&TermResult::sum_of_squares, "sum of squares"), show(&TermResult::statistic, "F"),
       show(&TermResult::p, "p-value", Kind::kP)};
-  if (!with_effects) return shown(caption, family.tests, columns);
   auto result = shown(caption, family.tests, with_effect_columns(columns));
 
   // Residuals have degrees of freedom and a sum of squares; nothing else applies to them.

@@ -76,8 +76,7 @@ inline constexpr const char* kMeansCaption = "Estimated marginal means of ";  //
 
 // Partial eta squared and its limits.
 [[nodiscard]] std::vector<ShownColumn<TermResult>> with_effect_columns(std::vector<ShownColumn<TermResult>> columns);
-// Terms with degrees of freedom, sums of squares, F and p, and the residuals; with effects if there are any.
-[[nodiscard]] ResultTable anova_table(const std::string& caption, const TestFamily& family, const AnovaTable& table,
-                                      bool with_effects);
+// Terms with degrees of freedom, sums of squares, F, p and effects, and the residuals.
+[[nodiscard]] ResultTable anova_table(const std::string& caption, const TestFamily& family, const AnovaTable& table);
 
 }  // namespace kith

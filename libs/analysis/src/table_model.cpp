@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "kith/analysis/cell_design.hpp"
 #include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/column_names.hpp"
@@ -206,7 +207,8 @@ std::optional<Analysis> analyze_balanced_table(const Dataset& data, const ModelQ
   model.values = rows.required_numbers(names.front());
   check_sizes(rows, names.front());
   check_comparisons(model.factors, options);
-  if (!anova(model.values, model.factors, model.terms).balanced) return std::nullopt;
+  const auto design = make_cell_design(model.values.size(), model.factors, model.terms);
+  if (!design || !design->is_balanced()) return std::nullopt;
   auto finding = analyze_model(model, options);
   finding.results = results_paragraph(finding, options.alpha);
   return Analysis{data.file(), {}, {std::move(finding)}, {}};

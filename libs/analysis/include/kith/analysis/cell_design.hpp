@@ -10,9 +10,8 @@
 
 namespace kith {
 
-/// The cells of a design whose factors are crossed and independent of each other: every combination of levels has
-/// observations, in numbers proportional to those of its levels. These are designs with one factor, and those whose
-/// cells all have the same number. Then all terms are orthogonal, and sums of squares of all types are the same.
+/// The cells of a design with one factor, or with several crossed ones whose combinations of levels all have the same
+/// number of observations. Then all terms are orthogonal, and sums of squares of all types are the same.
 ///
 /// Cells are numbered by their levels, the last factor fastest.
 struct CellDesign {
@@ -38,7 +37,7 @@ struct CellDesign {
 /// "strategy:composition"
 [[nodiscard]] std::string term_name(const std::vector<std::size_t>& term, std::span<const Factor> factors);
 
-/// Not estimable without observations, or if the numbers of observations are not proportional.
+/// Not estimable without observations, or if combinations of levels have different numbers of them.
 /// @param factors  one code per observation each. @param terms  sets of indices of `factors`.
 /// @throws std::invalid_argument if a factor has another number of codes, a code is no level, a term names no factor,
 /// or a part of it is no term.
