@@ -52,7 +52,7 @@ class LoadedDomain : public std::enable_shared_from_this<LoadedDomain> {
   /// Any non-terminal state of a world, as a demonstration of its own.
   [[nodiscard]] StartIndex state_of(const py::handle& start);
   /// (world, state)
-  [[nodiscard]] static py::tuple start_of(const Atlas& atlas, StartIndex start_index);
+  [[nodiscard]] static py::tuple start_of(const Atlas& atlas, StartIndex start);
 
  private:
   Domain domain_;

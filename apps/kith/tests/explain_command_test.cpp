@@ -361,8 +361,8 @@ TEST(Texts, FitEightyColumns) {
 TEST(InspectJson, TellsStartsApartAndGivesEveryMap) {
   const auto document = Json::parse(run_kith({"inspect", "item-delivery", "--show", "demos", "--json"}).out);
   std::set<std::string> pictures;
-  for (const auto& start_index : document.at("demos")) {
-    auto start = start_index.at("start");
+  for (const auto& one : document.at("demos")) {
+    auto start = one.at("start");
     EXPECT_TRUE(start.at("start").is_number());
     for (const auto& item : start.at("items")) EXPECT_TRUE(item.at("carried").is_boolean());
     start.erase("start");
@@ -378,8 +378,8 @@ TEST(InspectJson, TellsStartsApartAndGivesEveryMap) {
   const auto& shown = lesson.at("components").at(0).at("demonstrations").at(0);
   const auto& frame = shown.at("frames").at(0);
   bool found = false;
-  for (const auto& start_index : document.at("demos")) {
-    const auto& start = start_index.at("start");
+  for (const auto& one : document.at("demos")) {
+    const auto& start = one.at("start");
     found = found || (start.at("mdp") == shown.at("world") && start.at("robot") == frame.at("robot") &&
                       start.at("items") == frame.at("items"));
   }

@@ -22,9 +22,9 @@ Trajectory Atlas::trajectory(StartIndex start_index) const {
 std::vector<StartIndex> Atlas::path(StartIndex start) const {
   std::vector<StartIndex> path;
   auto at = static_cast<std::uint32_t>(start.value());
-  for (; at != kTerminal && demos_[at].cycle_length == 0; at = demos_[at].next) path.emplace_back(at);
+  for (; at != kTerminal && starts_[at].cycle_length == 0; at = starts_[at].next) path.emplace_back(at);
   if (at == kTerminal) return path;
-  for (auto left = demos_[at].cycle_length; left > 0; --left, at = demos_[at].next) path.emplace_back(at);
+  for (auto left = starts_[at].cycle_length; left > 0; --left, at = starts_[at].next) path.emplace_back(at);
   return path;
 }
 

@@ -68,12 +68,12 @@ void AtlasBuilder::plan() {
       throw Error{ErrorKind::kInfeasible, "the robot has no finite optimum in world " + std::to_string(m.value()) +
                                               " of domain '" + domain.id() + "'"};
     }
-    atlas_.first_demo_.push_back(atlas_.demos_.size());
+    atlas_.first_start_.push_back(atlas_.starts_.size());
     for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-      Atlas::Demo start;
+      Atlas::Start start;
       start.id = {m, s};
       start.complexity = domain.complexity(start.id);
-      atlas_.demos_.push_back(start);
+      atlas_.starts_.push_back(start);
       atlas_.counts_.push_back(plan->counts[s.value()]);
     }
     const auto order = successors_first(mdp, *plan);
@@ -145,7 +145,7 @@ void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const Path
     const StateIndex next{robot.next[s.value()]};
     here.tie = robot.optimal_choices[s.value()] > 1;
     here.cycle_length = order.cycle_length[s.value()];
-    if (!mdp.is_terminal(next)) here.next = static_cast<std::uint32_t>(atlas_.first_demo_[m.value()] + next.value());
+    if (!mdp.is_terminal(next)) here.next = static_cast<std::uint32_t>(atlas_.first_start_[m.value()] + next.value());
   }
 
   for (const auto s : order.states) {
@@ -156,7 +156,7 @@ void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const Path
     if (here.cycle_length > 0) {  // the whole round, which no path that ends is named by
       key.push_back(-1);
       for (const StartIndex on : atlas_.path(atlas_.index({m, s}))) {
-        here.unique = here.unique && !atlas_.demos_[on.value()].tie;
+        here.unique = here.unique && !atlas_.starts_[on.value()].tie;
         append_look(m, atlas_.id(on).start, robot, key);
       }
     } else {
@@ -205,7 +205,7 @@ std::vector<ConstraintIndex> AtlasBuilder::deviations(const Mdp& mdp, const Robo
 void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot, const PathOrder& order) {
   const auto& mdp = atlas_.domain_.mdp(m);
   const auto is_on_path = on_candidates_paths(m, robot);
-  raw_sets_.resize(atlas_.demos_.size());
+  raw_sets_.resize(atlas_.starts_.size());
   for (std::size_t i = 0; i < order.states.size(); ++i) {
     const auto s = order.states[i];
     if (!is_on_path[s.value()]) {
@@ -226,7 +226,7 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot, const Pa
     set.erase(std::unique(set.begin(), set.end()), set.end());
     memory_.take(length * set.size() * sizeof(ConstraintIndex));
     for (std::size_t j = 0; j < length; ++j)
-      raw_sets_[atlas_.first_demo_[m.value()] + order.states[i + j].value()] = set;
+      raw_sets_[atlas_.first_start_[m.value()] + order.states[i + j].value()] = set;
     i += length - 1;
   }
 }
@@ -265,7 +265,7 @@ bool AtlasBuilder::counts(const HalfSpace& half_space) const {
 std::vector<std::size_t> AtlasBuilder::candidates() const {
   std::vector<std::size_t> result;
   for (MdpIndex m{0}; m.value() < atlas_.domain_.num_mdps(); ++m) {
-    for (const StateIndex s : atlas_.domain_.starts(m)) result.push_back(atlas_.first_demo_[m.value()] + s.value());
+    for (const StateIndex s : atlas_.domain_.starts(m)) result.push_back(atlas_.first_start_[m.value()] + s.value());
   }
   return result;
 }
@@ -285,7 +285,7 @@ void AtlasBuilder::reduce_one_step() {
       KITH_ASSERT(reduced.has_value());  // weights beside the robot's satisfy all that counts
       minimal_sets_.push_back(std::move(*reduced));
     }
-    atlas_.demos_[i].one_step = place->second;
+    atlas_.starts_[i].one_step = place->second;
   }
 }
 
@@ -324,7 +324,7 @@ void AtlasBuilder::group_starts() {
     group_by_hulls();
   } else {
     for (const std::size_t i : candidates()) {
-      atlas_.demos_[i].start_class = StartClassIndex{atlas_.classes_.size()};
+      atlas_.starts_[i].start_class = StartClassIndex{atlas_.classes_.size()};
       atlas_.classes_.emplace_back().emplace_back(i);
     }
   }

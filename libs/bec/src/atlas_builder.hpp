@@ -40,7 +40,7 @@ class AtlasBuilder {
   void number_constraints();
   void make_one_step_sets();
   void compare_whole_paths();
-  void show_more(Atlas::Demo& start, const std::set<HalfSpace>& comparisons, const Cone& region);
+  void show_more(Atlas::Start& start, const std::set<HalfSpace>& comparisons, const Cone& region);
   void make_policy_bec();
   void count_masks();
   void make_components();
@@ -65,8 +65,8 @@ class AtlasBuilder {
 
   // Positions of the demonstrations that may be shown or asked.
   [[nodiscard]] std::vector<std::size_t> candidates() const;
-  [[nodiscard]] Atlas::Demo& start(MdpIndex m, StateIndex s) {
-    return atlas_.demos_[atlas_.first_demo_[m.value()] + s.value()];
+  [[nodiscard]] Atlas::Start& start(MdpIndex m, StateIndex s) {
+    return atlas_.starts_[atlas_.first_start_[m.value()] + s.value()];
   }
   [[nodiscard]] std::uint32_t picture(MdpIndex m, StateIndex s);
 

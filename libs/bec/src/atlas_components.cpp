@@ -36,7 +36,7 @@ void AtlasBuilder::count_masks() {
   }
   atlas_.mask_counters_.assign(d, 0);
   for (const std::size_t i : candidates()) {
-    for (std::size_t k = 0; k < d; ++k) atlas_.mask_counters_[k] += rows[atlas_.demos_[i].one_step][k];
+    for (std::size_t k = 0; k < d; ++k) atlas_.mask_counters_[k] += rows[atlas_.starts_[i].one_step][k];
   }
 }
 
@@ -159,7 +159,7 @@ KnowledgeComponent AtlasBuilder::component(std::vector<std::size_t> features, st
   }
   auto all = atlas_.no_constraints();
   for (const std::size_t i : candidates()) {
-    const auto& start = atlas_.demos_[i];
+    const auto& start = atlas_.starts_[i];
     if (result.uses_mdp[start.id.mdp.value()]) all |= atlas_.one_step_sets_[start.one_step];
   }
   Regions regions{atlas_.constraints_};

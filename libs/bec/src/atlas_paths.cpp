@@ -127,11 +127,11 @@ void AtlasBuilder::compare_whole_paths() {
       for (const auto& mistake : regret.mistakes(weights)) meet(mistake);
     }
   }
-  for (const auto& [i, comparisons] : shown) show_more(atlas_.demos_[i], comparisons, region);
+  for (const auto& [i, comparisons] : shown) show_more(atlas_.starts_[i], comparisons, region);
 }
 
 // What is added to what a start shows: the comparisons that follow from the region.
-void AtlasBuilder::show_more(Atlas::Demo& start, const std::set<HalfSpace>& comparisons, const Cone& region) {
+void AtlasBuilder::show_more(Atlas::Start& start, const std::set<HalfSpace>& comparisons, const Cone& region) {
   auto all = atlas_.constraints_.half_spaces(atlas_.one_step_sets_[start.one_step]);
   std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(all),
                [&](const HalfSpace& half_space) { return region.implies(half_space); });

@@ -14,7 +14,7 @@ void AtlasBuilder::find_hulls(MdpIndex m) {
   }
   tables_->coverage_.vertices += coverage.num_vertices();
   tables_->coverage_.mean =
-      static_cast<double>(tables_->coverage_.vertices) / static_cast<double>(atlas_.demos_.size());
+      static_cast<double>(tables_->coverage_.vertices) / static_cast<double>(atlas_.starts_.size());
 }
 
 void AtlasBuilder::intern_hull(StartIndex here, const CoverageSets& coverage) {
@@ -61,16 +61,16 @@ void AtlasBuilder::make_facets() {
 void AtlasBuilder::group_by_hulls() {
   const auto& domain = atlas_.domain_;
   IntsMap<std::size_t> index;
-  std::vector<std::vector<std::int64_t>> hulls_on_path(atlas_.demos_.size());
+  std::vector<std::vector<std::int64_t>> hulls_on_path(atlas_.starts_.size());
   const auto conveys = [&](HullIndex h) {
     const auto& row = tables_->constraints_[h.value()];
     return std::any_of(row.begin(), row.end(), [](std::int32_t c) { return c >= 0; });
   };
 
   // Paths are at most as long as their MDP has states, so following them is cheap.
-  for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
+  for (std::size_t i = 0; i < atlas_.starts_.size(); ++i) {
     auto& hulls = hulls_on_path[i];
-    for (auto at = static_cast<std::uint32_t>(i); at != Atlas::kTerminal; at = atlas_.demos_[at].next) {
+    for (auto at = static_cast<std::uint32_t>(i); at != Atlas::kTerminal; at = atlas_.starts_[at].next) {
       const auto hull = tables_->starts_[at].hull;
       if (conveys(hull)) hulls.push_back(static_cast<std::int64_t>(hull.value()));
     }
@@ -78,7 +78,7 @@ void AtlasBuilder::group_by_hulls() {
     hulls.erase(std::unique(hulls.begin(), hulls.end()), hulls.end());
     auto key = hulls;
     for (std::size_t k = 0; k < domain.num_features(); ++k) {
-      key.push_back(domain.mdp(atlas_.demos_[i].id.mdp).has_feature(k) ? -1 : -2);
+      key.push_back(domain.mdp(atlas_.starts_[i].id.mdp).has_feature(k) ? -1 : -2);
     }
     const auto [place, is_new] = index.try_emplace(std::move(key), atlas_.classes_.size());
     if (is_new) {
@@ -87,7 +87,7 @@ void AtlasBuilder::group_by_hulls() {
       for (const auto h : hulls) of_class.emplace_back(static_cast<std::size_t>(h));
     }
     atlas_.classes_[place->second].emplace_back(i);
-    atlas_.demos_[i].start_class = StartClassIndex{place->second};
+    atlas_.starts_[i].start_class = StartClassIndex{place->second};
   }
   tables_->num_constraints_ = atlas_.constraints_.size();
 }

@@ -32,7 +32,7 @@ PeopleRegret::PeopleRegret(const Atlas& atlas, const Sample& sample) : atlas_{&a
     for (const std::size_t i : some_of(starts.size(), sample.starts_per_mdp, random.split("starts").split(m))) {
       Start start{atlas.index({mdp, starts[i]})};
       for (std::size_t choice = 0; choice < domain.mdp(mdp).choices(starts[i]).size(); ++choice) {
-        const auto loss = atlas.feature_counts(start.start) - atlas.deviation_counts(start.start, choice);
+        const auto loss = atlas.feature_counts(start.index) - atlas.deviation_counts(start.index, choice);
         start.worst = std::max(start.worst, domain.weights().return_of(loss) * scale);
       }
       starts_.push_back(start);
@@ -46,8 +46,8 @@ double PeopleRegret::of(const Direction& weights) {
   const auto cell = behaviours_.locate(weights);
   double sum = 0.0;
   for (const Start& start : starts_) {
-    const auto answer = behaviours_.answer(start.start, cell);
-    sum += answer ? std::max(0.0, domain.weights().return_of(atlas_->feature_counts(start.start) - *answer) * scale)
+    const auto answer = behaviours_.answer(start.index, cell);
+    sum += answer ? std::max(0.0, domain.weights().return_of(atlas_->feature_counts(start.index) - *answer) * scale)
                   : start.worst;
   }
   return starts_.empty() ? 0.0 : sum / static_cast<double>(starts_.size());
@@ -59,11 +59,11 @@ std::vector<PeopleRegret::Mistake> PeopleRegret::mistakes(const Direction& weigh
   const auto cell = behaviours_.locate(weights);
   std::vector<Mistake> found;
   for (const Start& start : starts_) {
-    const auto answer = behaviours_.answer(start.start, cell);
+    const auto answer = behaviours_.answer(start.index, cell);
     if (!answer) continue;
-    const auto advantage = atlas_->feature_counts(start.start) - *answer;
+    const auto advantage = atlas_->feature_counts(start.index) - *answer;
     const double regret = domain.weights().return_of(advantage) * scale / static_cast<double>(starts_.size());
-    if (regret > 0.0) found.push_back({start.start, regret, advantage});
+    if (regret > 0.0) found.push_back({start.index, regret, advantage});
   }
   return found;
 }

@@ -35,7 +35,7 @@ class PeopleRegret {
 
  private:
   struct Start {
-    StartIndex start;
+    StartIndex index;
     double worst = 0.0;  // of a single deviation
   };
 

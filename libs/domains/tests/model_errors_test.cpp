@@ -278,6 +278,5 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
   EXPECT_EQ(read_model_texts(texts).diagnostics.size(), 20u);
 }
 
-// Those of this page of the documentation; the others are those of grids.
 }  // namespace
 }  // namespace kith

@@ -358,9 +358,9 @@ TEST(Trials, AreFittedWhateverTheirOrderNamesAndFiles) {
 
 TEST(Trials, SayWhatPeopleKnowBeforehand) {
   const testing::ScratchFolder folder;
-  const auto read = [&](const std::string& domain, const std::string& start, const std::string& parameters = "") {
+  const auto read = [&](const std::string& domain, const std::string& shown, const std::string& parameters = "") {
     return import_trials(
-        folder.write("t.csv", kHeader + ("a,open," + domain + ",demo,0,,\"{\"\"constraints\"\": [" + start + "]" +
+        folder.write("t.csv", kHeader + ("a,open," + domain + ",demo,0,,\"{\"\"constraints\"\": [" + shown + "]" +
                                          parameters + "}\"\na,open," + domain + ",final test,0,1,\n")));
   };
   const auto given = read("at", "[2, -1, 0]", ", \"\"prior\"\": [[-1, 0, 0], [0, -1, 0]]");

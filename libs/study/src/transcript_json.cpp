@@ -96,11 +96,11 @@ class Converter {
     const auto& lesson = period.lesson;
     Json demonstrations = Json::array();
     for (const auto& shown : lesson.demonstrations) {
-      auto start = path_to_json(shown.start);
-      start["conveys"] = kith::to_json(shown.half_spaces, d_);
-      start["gain"] = shown.gain;
-      start["new_constraints"] = shown.num_new;
-      demonstrations.push_back(std::move(start));
+      auto demonstration = path_to_json(shown.start);
+      demonstration["conveys"] = kith::to_json(shown.half_spaces, d_);
+      demonstration["gain"] = shown.gain;
+      demonstration["new_constraints"] = shown.num_new;
+      demonstrations.push_back(std::move(demonstration));
     }
     Json tests = Json::array();
     for (std::size_t t = 0; t < lesson.tests.size(); ++t) {

@@ -71,13 +71,13 @@ StartSample StartSample::spread_over_facets(const Atlas& atlas, std::size_t comp
 
 void StartSample::add(const Atlas& atlas, StartIndex start_index, double weight) {
   const auto known =
-      std::find_if(starts_.begin(), starts_.end(), [&](const Start& one) { return one.start == start_index; });
+      std::find_if(starts_.begin(), starts_.end(), [&](const Start& one) { return one.index == start_index; });
   if (known != starts_.end()) {
     known->weight += weight;
     return;
   }
   auto& start = starts_.emplace_back();
-  start.start = start_index;
+  start.index = start_index;
   start.weight = weight;
   for (const auto c : atlas.tested_constraints(start_index).members()) {
     const auto at = std::find(constraints_.begin(), constraints_.end(), c);

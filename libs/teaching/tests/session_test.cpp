@@ -169,7 +169,7 @@ TEST(Session, ATeamOfOneIsTaughtAlikeForEveryBelief) {
     auto session = make_session(cache, name, 1);
     auto& list = shown.emplace_back();
     for (int i = 0; i < 6 && !session.finished(); ++i) {
-      for (const auto& start : session.lesson().demonstrations) list.push_back(start.start);
+      for (const auto& one : session.lesson().demonstrations) list.push_back(one.start);
       for (const auto& test : session.lesson().tests) list.push_back(test.start);
       submit(session, cache, i % 2 == 0 ? wrong_answers(session) : all_right(session));
     }

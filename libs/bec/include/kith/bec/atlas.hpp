@@ -63,12 +63,12 @@ class Atlas {
 
   // --- demonstrations -------------------------------------------------------
   /// Of all non-terminal states; not all need be candidates.
-  [[nodiscard]] std::size_t num_states() const noexcept { return demos_.size(); }
+  [[nodiscard]] std::size_t num_states() const noexcept { return starts_.size(); }
   /// Whether demonstrations and tests may start there (Domain::starts()).
-  [[nodiscard]] bool is_candidate(StartIndex start) const { return demos_[start.value()].start_class != kNoClass; }
-  [[nodiscard]] StartId id(StartIndex start) const { return demos_[start.value()].id; }
+  [[nodiscard]] bool is_candidate(StartIndex start) const { return starts_[start.value()].start_class != kNoClass; }
+  [[nodiscard]] StartId id(StartIndex start) const { return starts_[start.value()].id; }
   [[nodiscard]] StartIndex index(StartId id) const {
-    return StartIndex{first_demo_[id.mdp.value()] + id.start.value()};
+    return StartIndex{first_start_[id.mdp.value()] + id.start.value()};
   }
   /// The robot's canonical path, of at least one action; the likeliest where chance has a part. A robot that never ends
   /// goes round in a cycle.
@@ -80,11 +80,11 @@ class Atlas {
   /// The next state on that path, as a demonstration of its own; nothing where the path ends. Following it never ends
   /// where the path does not.
   [[nodiscard]] std::optional<StartIndex> next(StartIndex start) const {
-    const auto at = demos_[start.value()].next;
+    const auto at = starts_[start.value()].next;
     return at == kTerminal ? std::nullopt : std::optional{StartIndex{at}};
   }
   /// The number of actions of the cycle that the start state lies on, where the path never ends; 0: on none.
-  [[nodiscard]] std::size_t cycle_length(StartIndex start) const { return demos_[start.value()].cycle_length; }
+  [[nodiscard]] std::size_t cycle_length(StartIndex start) const { return starts_[start.value()].cycle_length; }
   /// mu of the robot's path, or its expectation, shape [d].
   [[nodiscard]] const IntegerVector& feature_counts(StartIndex start) const { return counts_[start.value()]; }
   /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].
@@ -92,24 +92,24 @@ class Atlas {
   /// @throws std::invalid_argument if there is no such choice.
   [[nodiscard]] IntegerVector deviation_counts(StartIndex start, std::size_t choice) const;
   /// Whether the robot's optimal path is unique (ties in features or not).
-  [[nodiscard]] bool is_unique(StartIndex start) const { return demos_[start.value()].unique; }
+  [[nodiscard]] bool is_unique(StartIndex start) const { return starts_[start.value()].unique; }
   /// Whether some optimal action besides the canonical one exists in the start state itself.
-  [[nodiscard]] bool has_tie(StartIndex start) const { return demos_[start.value()].tie; }
+  [[nodiscard]] bool has_tie(StartIndex start) const { return starts_[start.value()].tie; }
   /// Minimal set of what the path shows: the one-step deviation constraints, mu_robot(s_t) - mu(s_t, b) for every state
   /// s_t of the path and every action b, and, where behaviours are not tabulated and candidates' paths do not meet
   /// every state, comparisons of the path with whole paths of people who would satisfy all of these. @pre
-  /// is_candidate(demo).
+  /// is_candidate(start).
   [[nodiscard]] const ConstraintSet& one_step(StartIndex start) const {
-    return one_step_sets_[demos_[start.value()].one_step];
+    return one_step_sets_[starts_[start.value()].one_step];
   }
   /// Equal for demonstrations that look the same: same pictures, same actions.
   [[nodiscard]] std::uint32_t trajectory_class(StartIndex start) const {
-    return demos_[start.value()].trajectory_class;
+    return starts_[start.value()].trajectory_class;
   }
   /// Domain::complexity() of the start picture.
-  [[nodiscard]] int complexity(StartIndex start) const { return demos_[start.value()].complexity; }
+  [[nodiscard]] int complexity(StartIndex start) const { return starts_[start.value()].complexity; }
   /// Mean dissimilarity of the start picture to all others of the same MDP, rounded.
-  [[nodiscard]] int mean_dissimilarity(StartIndex start) const { return demos_[start.value()].mean_dissimilarity; }
+  [[nodiscard]] int mean_dissimilarity(StartIndex start) const { return starts_[start.value()].mean_dissimilarity; }
 
   // --- the robot's policy ---------------------------------------------------
   /// Minimal set of all one_step(): the behaviour equivalence class of the policy.
@@ -131,14 +131,14 @@ class Atlas {
 
   // --- classes that convey the same -----------------------------------------
   [[nodiscard]] std::size_t num_start_classes() const noexcept { return classes_.size(); }
-  [[nodiscard]] StartClassIndex start_class(StartIndex start) const { return demos_[start.value()].start_class; }
+  [[nodiscard]] StartClassIndex start_class(StartIndex start) const { return starts_[start.value()].start_class; }
   /// In ascending order; all are candidates.
   [[nodiscard]] std::span<const StartIndex> members(StartClassIndex c) const { return classes_[c.value()]; }
   [[nodiscard]] std::size_t words_per_set() const noexcept { return (constraints_.size() + 63) / 64; }
 
   // --- tests ----------------------------------------------------------------
   /// Constraints that a right answer shows: BehaviourTables::robot_cell_facets() where behaviours are tabulated, else
-  /// one_step(), of which they are some. @pre is_candidate(demo).
+  /// one_step(), of which they are some. @pre is_candidate(start).
   [[nodiscard]] const ConstraintSet& tested_constraints(StartIndex start) const {
     return tables_ ? tables_->robot_cell_facets(start) : one_step(start);
   }
@@ -163,7 +163,7 @@ class Atlas {
   static constexpr StartClassIndex kNoClass{0xFFFFFFFF};
 
   // What selections look up again and again: as many of them in a cache line as possible.
-  struct Demo {
+  struct Start {
     StartId id;
     bool unique = true;
     bool tie = false;
@@ -172,7 +172,7 @@ class Atlas {
     int complexity = 0;
     int mean_dissimilarity = 0;
     StartClassIndex start_class = kNoClass;
-    std::uint32_t next = kTerminal;  // demo index of the next state on the path
+    std::uint32_t next = kTerminal;  // index of the next state on the path
     std::uint32_t cycle_length = 0;  // of the cycle that the start state lies on; 0: on none
   };
 
@@ -184,8 +184,8 @@ class Atlas {
   ConstraintSet prior_;
   Cone prior_cone_;
   std::vector<std::size_t> feature_order_;
-  std::vector<std::size_t> first_demo_;
-  std::vector<Demo> demos_;
+  std::vector<std::size_t> first_start_;
+  std::vector<Start> starts_;
   std::vector<IntegerVector> counts_;                          // per demonstration
   std::vector<std::vector<std::uint32_t>> canonical_choices_;  // per MDP, shape [num_states]
   std::vector<std::vector<std::uint32_t>> shown_next_;         // the same: the state after s on the shown path

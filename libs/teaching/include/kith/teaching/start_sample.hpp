@@ -26,7 +26,7 @@ class StartSample {
   [[nodiscard]] static StartSample spread_over_facets(const Atlas& atlas, std::size_t component);
 
   [[nodiscard]] std::size_t size() const noexcept { return starts_.size(); }
-  [[nodiscard]] StartIndex start(std::size_t i) const { return starts_[i].start; }
+  [[nodiscard]] StartIndex start(std::size_t i) const { return starts_[i].index; }
   /// Of a start; they sum to 1.
   [[nodiscard]] double weight(std::size_t i) const { return starts_[i].weight; }
 
@@ -40,7 +40,7 @@ class StartSample {
 
  private:
   struct Start {
-    StartIndex start;
+    StartIndex index;
     double weight = 0.0;
     std::vector<std::uint32_t> cell;  // positions in half_spaces_
   };
