@@ -2,6 +2,7 @@
 #include "answerer.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
@@ -9,13 +10,11 @@
 namespace kith::detail {
 
 void Answerer::why() {
-  const auto world = question_.world.value_or(last_world());
-  const auto start = scene_.needed_start(world);
   reply_.question = why_in_words();
   if (question_.is_about_a_step()) {
-    why_at(start);
+    why_at(scene_.needed_start(question_.world.value_or(last_world())));
   } else {
-    why_path(start);
+    why_path();
   }
 }
 
@@ -49,10 +48,37 @@ void Answerer::why_at(StartIndex start_index) {
       question_.instead ? scene_.contrast_to(start_index, *question_.instead, true) : scene_.best_step(start_index));
 }
 
-void Answerer::why_path(StartIndex start) {
-  const auto number = atlas_.id(start).mdp;
-  const auto& asked = question_.happening ? *question_.happening : *question_.instead;
-  if (!question_.happening) std::swap(question_.happening, question_.instead);  // look_at() takes the happening
+MdpIndex Answerer::world_to_explain(bool happens) const {
+  constexpr std::size_t kMostTried = 64;
+  constexpr std::size_t kNoContrast = std::numeric_limits<std::size_t>::max();
+  std::optional<MdpIndex> best;
+  auto fewest = kNoContrast;  // features that the robot weighs against each other there
+  std::size_t tried = 0;
+  for (auto m = domain_.num_mdps(); m-- > 0 && tried < kMostTried && fewest > 2;) {
+    const auto start = scene_.start_in(MdpIndex{m});
+    if (!scene_.is_asked_about(MdpIndex{m}) || !start || look_at(start).happens != happens) continue;
+    ++tried;
+    const auto contrast = scene_.contrast_to(*start, *question_.happening, !happens);
+    const auto conveyed =
+        contrast && !is_detour(domain_, *contrast) ? conveyed_by(domain_, *contrast) : std::optional<HalfSpace>{};
+    auto weighed = kNoContrast;
+    if (conveyed) {
+      weighed = 0;
+      for (std::size_t k = 0; k < domain_.num_features(); ++k) weighed += conveyed->normal()[k] != 0 ? 1U : 0U;
+    }
+    if (best && weighed >= fewest) continue;
+    best = MdpIndex{m};
+    fewest = weighed;
+  }
+  return best.value_or(last_world());
+}
+
+void Answerer::why_path() {
+  const bool is_said_to_happen = question_.happening.has_value();
+  if (!is_said_to_happen) std::swap(question_.happening, question_.instead);  // look_at() takes the happening
+  const auto asked = *question_.happening;
+  const auto number = question_.world ? *question_.world : world_to_explain(is_said_to_happen);
+  const auto start = scene_.needed_start(number);
   const auto world = look_at(start);
   const bool does = world.happens;
   const auto what = says_that(asked, world.how()) + " in " + scene_.name_of(number) + chance_text(world);

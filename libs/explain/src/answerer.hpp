@@ -147,7 +147,10 @@ class Answerer {
   void why_at(StartIndex start_index);
 
   // About the path from the map's start.
-  void why_path(StartIndex start);
+  void why_path();
+
+  // The world that explains best why something happens (or not): the last in which it is so by choice, or at all.
+  [[nodiscard]] MdpIndex world_to_explain(bool happens) const;
 
   void conclude(StartIndex start, const std::string& says, const std::optional<Contrast>& contrast,
                 const std::string& nothing = "it has no other choice");

@@ -115,6 +115,16 @@ TEST(AskWhy, ComparesWholeWaysWithoutACell) {
   EXPECT_EQ(goals.examples.size(), 1u);
 }
 
+// Without a world, a question why is answered where it is so, and by the plainest comparison.
+TEST(AskWhy, ChoosesAWorldInWhichItIsSo) {
+  for (const auto& [question, answer] : std::map<std::string, std::string>{
+           {"why does it go around the rubble?", "does not happen in world 34; it would rather take 2 more steps"},
+           {"why does it cross rubble?", "happens in world 10; it would rather cross rubble than take 4 more steps"},
+           {"why does it recharge?", "happens in world 35; it will take 2 more steps to stop at the charger"},
+           {"why does it not recharge?", "does not happen in world 59; it will not take 4 more steps"}})
+    EXPECT_THAT(ask(question).text, HasSubstr(answer)) << question;
+}
+
 TEST(AskWhatIf, ShowsBothWorlds) {
   const auto& atlas = atlas_of("item-delivery");
   const auto reply = ask("what if there is no charger?");
