@@ -178,7 +178,7 @@ class AuditText {
  private:
   void line(const std::string& text, std::size_t indent) {
     const std::string blank(indent, ' ');
-    out_ += blank + wrapped(text, kTextWidth - indent, blank) + "\n";
+    out_ += wrapped(text, kTextWidth, blank, blank) + "\n";
   }
 
   void summary() {

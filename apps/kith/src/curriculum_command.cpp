@@ -40,7 +40,7 @@ class CurriculumText {
  private:
   void line(const std::string& text, std::size_t indent) {
     const std::string blank(indent, ' ');
-    out_ += blank + wrapped(text, kTextWidth - indent, blank) + "\n";
+    out_ += wrapped(text, kTextWidth, blank, blank) + "\n";
   }
 
   void component(std::size_t i) {

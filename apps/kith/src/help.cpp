@@ -24,17 +24,15 @@ std::string left_column(const OptionDescription& option) {
 }
 
 std::string right_column(const OptionDescription& option, std::size_t width, bool full) {
-  const std::string next = "\n" + std::string(width, ' ');
-  const auto lines = [&](const std::string& words) {
-    return wrapped(words, kTextWidth - width, std::string(width, ' '));
-  };
-  std::string text = lines(option.description);
-  if (!option.choices.empty()) text += next + lines(fmt::format("one of: {}", fmt::join(option.choices, ", ")));
+  const std::string blank(width, ' ');
+  const auto lines = [&](const std::string& words) { return wrapped(words, kTextWidth, blank, blank); };
+  std::string text = lines(option.description).substr(width);
+  if (!option.choices.empty()) text += "\n" + lines(fmt::format("one of: {}", fmt::join(option.choices, ", ")));
   if (!full) return text;
   std::vector<std::string> facts;
   if (!option.default_text.empty()) facts.push_back("default: " + option.default_text);
   if (!option.environment.empty()) facts.push_back("environment: " + option.environment);
-  if (!facts.empty()) text += next + lines(fmt::format("({})", fmt::join(facts, "; ")));
+  if (!facts.empty()) text += "\n" + lines(fmt::format("({})", fmt::join(facts, "; ")));
   return text;
 }
 

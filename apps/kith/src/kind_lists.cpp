@@ -21,9 +21,7 @@ std::string type_and_range(const Parameter& parameter) {
 
 std::string parameter_text(const Parameter& parameter) {
   const std::string blank(6, ' ');
-  const auto lines = [&](const std::string& text) {
-    return blank + wrapped(text, kTextWidth - blank.size(), blank) + "\n";
-  };
+  const auto lines = [&](const std::string& text) { return wrapped(text, kTextWidth, blank, blank) + "\n"; };
   auto meaning = std::string{parameter.description};
   if (!parameter.source.empty()) meaning += " [" + std::string{parameter.source} + "]";
   const auto value = parameter.is_required ? "required" : "default: " + to_string(parameter.default_value);
@@ -51,7 +49,7 @@ std::vector<KindList> kind_lists() {
 std::string to_text(const KindList& list, const Console& console) {
   auto text = "What " + std::string{list.key} + " can name:\n";
   for (const auto& row : list.rows) {
-    text += "\n" + console.bold(row.name) + "\n    " + wrapped(row.description, kTextWidth - 4, "    ") + "\n";
+    text += "\n" + console.bold(row.name) + "\n" + wrapped(row.description, kTextWidth, "    ", "    ") + "\n";
     for (const auto& parameter : row.parameters) text += "\n" + parameter_text(parameter);
   }
   const bool has_source = std::any_of(list.rows.begin(), list.rows.end(), [](const auto& row) {
@@ -71,7 +69,7 @@ std::string keys_text() {
       for (const auto& parameter : row.parameters) {
         line.append(&parameter == &row.parameters.front() ? ": " : ", ").append(parameter.name);
       }
-      text += "    " + wrapped(line, kTextWidth - blank.size(), blank) + "\n";
+      text += wrapped(line, kTextWidth, blank, "    ") + "\n";
     }
   }
   return text;
