@@ -91,7 +91,7 @@ check_links() {  # relative links in documents lead somewhere
 }
 
 check_marks() {  # a line that begins with a comment is no part of a paragraph, so the mark of a figure or a claim does not
-  files '*.md' | search -nE '^ *<!--(f | holds:)' | none
+  files '*.md' | search -nE '^ *<!--(f|holds) ' | none
 }
 
 check_map() {  # sources that the map of the project names exist; without a folder, somewhere

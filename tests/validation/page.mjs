@@ -1,23 +1,22 @@
 // The page: a Markdown file with generated parts between comments.
 //
-//   <!-- table NAME --> ... <!-- end -->   a table, made by the content of the page (teachers_content.mjs, validation_content.mjs)
-//   <!--f NAME-->7.72<!--/f-->             a figure in a sentence
-//   <!-- holds: NAME -->                   the sentence before it states what a claim of the content tests
-//   <!-- fixed: REASON --> ... <!-- end --> text that is not generated (yet), digits and all
+//   <!--table NAME--> ... <!--end-->   a table, made by the content of the page (teachers_content.mjs, validation_content.mjs)
+//   <!--f NAME-->7.72<!--/f-->         a figure in a sentence
+//   <!--holds NAME-->                  the sentence before it states what a claim of the content tests
 //
 // Outside of these and of `code`, a number with a decimal point, a percentage (but 95 %) or one with
 // thousands set apart is an error: nobody computed it.
 
-const PART = /<!-- (table|fixed):? ([^>]*?) -->\n([\s\S]*?)<!-- end -->|<!--f ([\w.-]+)-->([\s\S]*?)<!--\/f-->|<!-- holds: ([\w.-]+) -->/g;
+const PART = /<!--table ([^>]*?)-->\n([\s\S]*?)<!--end-->|<!--f ([\w.-]+)-->([\s\S]*?)<!--\/f-->|<!--holds ([\w.-]+)-->/g;
 
-// [{text} | {table, text} | {fixed, text} | {figure, text} | {claim}], in the order of the page.
+// [{text} | {table, text} | {figure, text} | {claim}], in the order of the page.
 export function parsePage(page) {
   const parts = [];
   let end = 0;
   for (const match of page.matchAll(PART)) {
     parts.push({ kind: 'text', text: page.slice(end, match.index), at: end });
-    const [all, block, name, content, figure, printed, claim] = match;
-    if (block) parts.push({ kind: block, name, text: content, at: match.index });
+    const [all, table, content, figure, printed, claim] = match;
+    if (table) parts.push({ kind: 'table', name: table, text: content, at: match.index });
     else if (figure) parts.push({ kind: 'figure', name: figure, text: printed, at: match.index });
     else parts.push({ kind: 'claim', name: claim, text: '', at: match.index });
     end = match.index + all.length;
@@ -31,8 +30,8 @@ export function printPage(parts) {
     .map(({ kind, name, text }) => {
       if (kind === 'text') return text;
       if (kind === 'figure') return `<!--f ${name}-->${text}<!--/f-->`;
-      if (kind === 'claim') return `<!-- holds: ${name} -->`;
-      return kind === 'table' ? `<!-- table ${name} -->\n${text}<!-- end -->` : `<!-- fixed: ${name} -->\n${text}<!-- end -->`;
+      if (kind === 'claim') return `<!--holds ${name}-->`;
+      return `<!--table ${name}-->\n${text}<!--end-->`;
     })
     .join('');
 }

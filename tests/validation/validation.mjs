@@ -92,7 +92,7 @@ function update(page, folder, { kith, write, only }) {
   const { fresh, differences, broken } = regenerate(parsePage(before), made, wanted);
   const problems = [
     ...findTypedFigures(before),
-    ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`),
+    ...broken.map((name) => `the sentence before 'holds ${name}' is no longer true`),
     ...missingQuotes(made.quotes ?? {}, wanted),
   ];
   const today = new Date().toLocaleDateString('en-GB', { day: 'numeric', month: 'long', year: 'numeric' });
