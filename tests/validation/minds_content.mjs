@@ -112,13 +112,7 @@ export function makeContent(runs) {
     ]),
   });
 
-  const tables = {
-    ...Object.fromEntries(Object.keys(DOMAINS).map((domain) => [`regret-${domain}`, matrix(domain)])),
-    order: () => ({
-      columns: ['people', ...TALKS.map((talk) => `\`${talk}\``)],
-      rows: KINDS.map((kind) => [`\`${kind}\``, ...TALKS.map((talk) => percent(chance(talk, kind), 1))]),
-    }),
-  };
+  const tables = Object.fromEntries(Object.keys(DOMAINS).map((domain) => [`regret-${domain}`, matrix(domain)]));
   const domains = Object.keys(DOMAINS);
   const runOf = (strategy) => (PAPER.includes(strategy) ? 'paper' : 'rivals');
   const everywhere = (kinds, test) => domains.every((domain) => kinds.every((kind) => test(domain, kind)));
