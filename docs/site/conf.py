@@ -32,15 +32,15 @@ def toctree(caption, pages):
 
 
 def add_contents(app, name, source):
-    """What the navigation shows: the rows of the table on the first page, and the pages that they name."""
+    """What the navigation shows: the list on the first page, and the pages that it names."""
     if name != root_doc:
         return
     known, contents = {"../README"}, toctree("Start here", ["../README"])
-    for caption, text in re.findall(r"^\| ([^|]+) \| (.*) \|$", source[0], re.M):
+    for caption, text in re.findall(r"^\* \*\*(.+?)\*\*:((?: .*\n)+)", source[0], re.M):
         pages = [page for page in pages_in(text) if page not in known]
         known.update(pages)
         if pages:
-            contents += toctree(caption[0].upper() + caption[1:], pages)
+            contents += toctree(caption, pages)
     rest = sorted(set(pages_in(source[0])) - known)
     source[0] += contents + toctree("To look things up", rest)
     source[0] += toctree("Decisions", ["adr/*"])
