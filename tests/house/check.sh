@@ -103,11 +103,14 @@ check_map() {  # sources that the map of the project names exist; without a fold
   done | none
 }
 
-check_citations() {  # every [key2024] cited in sources and documents is in docs/references.bib
-  files '*.cpp' '*.hpp' '*.md' '*.toml' | search -noE '\[[a-z]+(18|19|20)[0-9]{2}[a-z]*' |
-    while IFS=: read -r file line key; do
-      grep -q "{${key#[}," docs/references.bib || echo "$file:$line: ${key#[} is not in docs/references.bib"
-    done | none
+check_citations() {  # every [key2024] cited in sources and documents is in docs/references.bib, where no key is twice
+  {
+    files '*.cpp' '*.hpp' '*.md' '*.toml' | search -noE '\[[a-z]+(18|19|20)[0-9]{2}[a-z]*' |
+      while IFS=: read -r file line key; do
+        grep -q "{${key#[}," docs/references.bib || echo "$file:$line: ${key#[} is not in docs/references.bib"
+      done
+    grep -oE '^@[a-z]+\{[^,]+' docs/references.bib | sort -t'{' -k2 | uniq -d | sed 's/$/ is twice in docs\/references.bib/'
+  } | none
 }
 
 # A type has one definition: of two in one namespace the linker keeps the functions of either.
