@@ -27,7 +27,7 @@ int run(const ExplainOptions& options, Console& console) {
 }  // namespace
 
 void add_explain(Commands& commands) {
-  commands.add<ExplainOptions>("explain", "List kinds of learners, strategies, rules, talk",
+  commands.add<ExplainOptions>("explain", "List kinds of learners, strategies, beliefs, stop rules",
                                {"kith explain strategies", "kith explain learners"}, declare, run);
 }
 

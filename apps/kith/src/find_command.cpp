@@ -141,7 +141,7 @@ void declare(OptionList& list, FindOptions& options) {
   list.domain(options.domain).required();
   list.texts("constraint", options.constraint, "CONSTRAINT",
              "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed");
-  list.flag("--test", options.test, "For a test rather than for a demonstration");
+  list.flag("--test", options.test, "Find a world for a test, not for a demonstration");
   list.text("-o,--out", options.out, "FILE", "Write the world to this file, as a domain of its own");
   list.json();
 }

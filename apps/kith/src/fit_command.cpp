@@ -59,7 +59,7 @@ std::string likelihood_work_text(const ResponseLogs& logs, const ParameterGrid& 
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const double share = static_cast<double>(few) / static_cast<double>(logs.people.size()) *
                        static_cast<double>(coarse.abilities.size()) / static_cast<double>(n);
-  return fmt::format("computing the likelihood of {} people takes about {}", logs.people.size(),
+  return fmt::format("computing the likelihood of {} people takes {}", logs.people.size(),
                      duration_text(took.count() * runs / share));
 }
 

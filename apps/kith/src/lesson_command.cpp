@@ -124,13 +124,13 @@ void declare(OptionList& list, LessonOptions& options) {
             "Write the lesson, one HTML file ('-' is standard output), or a .zip for learning systems");
   list.text("--knowing", options.knowing, "DOMAIN", "The robot before an update, which people know");
   list.flag("--adaptive", options.is_adaptive,
-            "A page that chooses each lesson by the answers before; so is that of a study, and a .zip");
+            "A page that chooses each lesson by the answers so far, as that of a study and a .zip always do");
   list.integer("--seed", options.seed, {}, "Seed of all random streams of a lesson that does not adapt");
   list.json();
   list.flag("--playground", options.is_playground,
             "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
-  list.flag("--exam", options.has_exam, "An exam at the end, as group.exam of a study; such a page adapts");
-  list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if it is from there");
+  list.flag("--exam", options.has_exam, "An exam at the end, like group.exam of a study; the page is then adaptive");
+  list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if that page is from this origin");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
 }
 

@@ -24,9 +24,9 @@ void check_single_variant(const std::string& name, const Study& study) {
 std::string duration_text(double seconds) {
   constexpr double kMinute = 60.0, kHour = 3600.0, kShort = 1.0, kFew = 1.5;
   if (seconds < kShort) return "less than a second";
-  if (seconds < kFew * kMinute) return fmt::format("{:.0f} s", seconds);
-  if (seconds < kFew * kHour) return fmt::format("{:.0f} min", seconds / kMinute);
-  return fmt::format("{:.1f} h", seconds / kHour);
+  if (seconds < kFew * kMinute) return fmt::format("about {:.0f} s", seconds);
+  if (seconds < kFew * kHour) return fmt::format("about {:.0f} min", seconds / kMinute);
+  return fmt::format("about {:.1f} h", seconds / kHour);
 }
 
 Trial try_cells(const Atlas& atlas, const StudySpec& spec, std::size_t threads) {
@@ -42,8 +42,8 @@ Trial try_cells(const Atlas& atlas, const StudySpec& spec, std::size_t threads) 
 }
 
 std::string work_text(const Trial& trial, std::size_t teams) {
-  const double seconds = trial.seconds_per_team * static_cast<double>(teams);
-  return fmt::format("simulating {} teams takes {}{}", teams, seconds < 1.0 ? "" : "about ", duration_text(seconds));
+  return fmt::format("simulating {} teams takes {}", teams,
+                     duration_text(trial.seconds_per_team * static_cast<double>(teams)));
 }
 
 std::string items_text(const Trial& trial, const StudySpec& spec) {

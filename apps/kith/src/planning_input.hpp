@@ -26,7 +26,7 @@ struct Trial {
 /// "demonstrations and tests of a session, in a team of every composition: joint 31 to 40, plan 20".
 [[nodiscard]] std::string items_text(const Trial& trial, const StudySpec& spec);
 
-/// "less than a second", "12 s", "3 min", "2.5 h".
+/// "less than a second", "about 12 s", "about 3 min", "about 2.5 h".
 [[nodiscard]] std::string duration_text(double seconds);
 
 }  // namespace kith::cli

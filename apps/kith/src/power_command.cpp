@@ -276,7 +276,7 @@ void declare(OptionList& list, PowerCommandOptions& options) {
   list.integer("--studies", options.studies, {2, 100'000}, "Repetitions for --findings");
   list.threads(options.threads, "; never changes a result");
   list.integer("--seed", options.seed, {},
-               "Random seed (default: that of the study); the teams are others than the study's");
+               "Random seed (default: that of the study); never the study's own teams");
   list.set(options.set);
   list.progress(options.progress);
   list.json();

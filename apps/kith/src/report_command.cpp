@@ -72,7 +72,7 @@ class Steps {
 
 void declare(OptionList& list, ReportCommandOptions& options) {
   list.text("folder", options.folder, "DIR", "Run folder").required();
-  list.text("-o,--out", options.out, "FILE", "Page to write (default: report.html in DIR); '-' is stdout");
+  list.text("-o,--out", options.out, "FILE", "Page to write (default: report.html in DIR); '-' is standard output");
   list.flag("--run", options.runs,
             "With the engine of lesson files (850 kB more): teams can be taught again in the page");
   list.json();

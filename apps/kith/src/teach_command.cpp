@@ -80,7 +80,7 @@ void declare(OptionList& list, TeachOptions& options) {
   const std::vector others{
       list.domain(options.domain),
       list.text("--group", options.group, "LETTERS", "The members' learner types, one letter each"),
-      list.word("--strategy", options.strategy, "NAME", names, "Whose belief the lessons are chosen for"),
+      list.word("--strategy", options.strategy, "NAME", names, "Strategy by which lessons are chosen"),
       list.integer("--seed", options.seed, {}, "Seed of all random streams"),
       list.text("--study", options.study, "STUDY", "Built-in study or file with the learner types"),
       list.set(options.set)};

@@ -320,7 +320,7 @@ ParameterGrid grid_of(const FitOptions& options) {
 FitReport fit_learners(const ResponseLogs& given, const FitOptions& options) {
   constexpr std::size_t kFewest = 3;
   if (given.people.size() < kFewest) {
-    too_few("too few people to fit a population: " + std::to_string(given.people.size()) + ", and 3 are the least");
+    too_few("too few people: a population needs at least 3, and there are " + std::to_string(given.people.size()));
   }
   if (options.num_types == 0) static_cast<void>(labelled_members(given));  // complain before the work
   // By what they did, so that neither their names nor the order of the files count.
