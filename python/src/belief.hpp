@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 
 #include "binding.hpp"
 #include "kith/belief/particle_belief.hpp"

@@ -4,7 +4,6 @@
 #include "domain.hpp"
 #include "errors.hpp"
 #include "kith/core/error.hpp"
-#include "kith/domains/policy_file.hpp"
 #include "kith/domains/variation.hpp"
 #include "waiting.hpp"
 

@@ -1,6 +1,4 @@
 #include "own_kinds.hpp"
-
-#include <algorithm>
 #include <set>
 
 namespace kith::python {

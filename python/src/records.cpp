@@ -3,7 +3,6 @@
 #include "arrays.hpp"
 #include "domain.hpp"
 #include "kith/domains/file_units.hpp"
-#include "kith/explain/words.hpp"
 
 namespace kith::python {
 namespace {

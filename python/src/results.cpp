@@ -1,7 +1,6 @@
 // What is made of results: analyses, reports, audits, fits, power. Documents are JSON, the program's own.
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "assignment.hpp"
 #include "build_facts.hpp"
@@ -22,7 +21,6 @@
 #include "kith/store/event_file.hpp"
 #include "kith/store/session_audit.hpp"
 #include "kith/study/audit_people.hpp"
-#include "kith/study/observed_team.hpp"
 #include "own_kinds.hpp"
 #include "waiting.hpp"
 

@@ -1,7 +1,6 @@
 // Running, verifying and reading studies.
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "assignment.hpp"

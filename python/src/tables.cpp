@@ -1,6 +1,5 @@
 // Tables of a run, column by column: numbers in memory that arrays look at, texts as lists.
 #include <limits>
-#include <map>
 #include <memory>
 #include <utility>
 

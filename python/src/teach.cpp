@@ -3,7 +3,6 @@
 
 #include "assignment.hpp"
 #include "errors.hpp"
-#include "kith/bec/memory_needs.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/transcript.hpp"
 #include "kith/study/transcript_json.hpp"

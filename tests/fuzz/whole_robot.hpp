@@ -1,6 +1,4 @@
 #pragma once
-
-#include <algorithm>
 #include <string>
 
 #include "fuzzing.hpp"

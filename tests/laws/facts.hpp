@@ -2,7 +2,6 @@
 
 #include <iosfwd>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"

@@ -1,7 +1,5 @@
 // What a question is answered is true, and a question that says something else is answered something else or refused.
 #include <gtest/gtest.h>
-
-#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <map>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <numeric>
 #include <stdexcept>
 
 #include "kith/core/distributions.hpp"

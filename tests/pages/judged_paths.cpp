@@ -3,7 +3,6 @@
 // also with every first move from every start.
 //
 //   kith_judged_paths [DOMAIN...]
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 

@@ -3,8 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "kith/core/stream.hpp"
 #include "kith/geometry/cone.hpp"
 
 namespace kith::rivals {

@@ -1,5 +1,4 @@
 // What kinds there are, with their parameters.
-#include <algorithm>
 
 #include "command.hpp"
 #include "kind_lists.hpp"

@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "failpoint.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/words.hpp"
+#include "kith/core/text.hpp"
 #include "kith/runs/merge.hpp"
 #include "kith/runs/study_run.hpp"
 #include "run_outcome.hpp"

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
-#include <system_error>
 #include <utility>
 
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
-#include "kith/study/study.hpp"
 
 namespace kith::cli {
 

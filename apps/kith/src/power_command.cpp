@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 
 #include "build_facts.hpp"
 #include "command.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "kith/explain/words.hpp"
+#include "kith/core/text.hpp"
 
 namespace kith::cli {
 namespace {

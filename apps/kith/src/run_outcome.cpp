@@ -6,7 +6,7 @@
 
 #include "build_facts.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/words.hpp"
+#include "kith/core/text.hpp"
 #include "study_summary.hpp"
 
 namespace kith::cli {

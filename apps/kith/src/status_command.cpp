@@ -6,8 +6,8 @@
 
 #include "command.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/text.hpp"
 #include "kith/explain/json.hpp"
-#include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
 #include "kith/runs/journal.hpp"

@@ -6,7 +6,7 @@
 #include "command.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/words.hpp"
+#include "kith/core/text.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/verify.hpp"

@@ -1,7 +1,5 @@
 // Models of any table: by R where it is, and without it.
 #include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -1,8 +1,6 @@
 // Nothing of two runs is ever combined, and nothing that is missing goes unsaid.
 #include <gtest/gtest.h>
 
-#include <csignal>
-
 #include "small_study.hpp"
 
 namespace kith::testing {

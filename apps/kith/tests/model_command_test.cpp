@@ -1,8 +1,6 @@
 // Models without a map on the command line: validated, shown, exported, taught, studied.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "run_kith.hpp"
 
 namespace kith::testing {

@@ -18,7 +18,6 @@
 // text, "diagnostics": what is wrong with the inputs, as of kith::to_json() and with "text" for people}.
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>

@@ -5,7 +5,6 @@
 
 #include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
-#include "kith/files/column_names.hpp"
 #include "kith/files/document.hpp"
 #include "model_means.hpp"
 #include "run_findings.hpp"

@@ -1,9 +1,7 @@
 #include "kith/analysis/anova.hpp"
 
 #include <cmath>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "cell_model.hpp"
 #include "checks.hpp"

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <span>
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
-#include <vector>
 
 #include "kith/core/text.hpp"
 #include "kith/files/column_names.hpp"

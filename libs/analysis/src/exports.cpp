@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "kith/files/csv_writer.hpp"
 #include "shown.hpp"

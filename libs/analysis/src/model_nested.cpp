@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "kith/analysis/decimals.hpp"
 #include "kith/analysis/nested_model.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "kith/analysis/moments.hpp"
 #include "model_means.hpp"

@@ -4,11 +4,8 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "cell_model.hpp"
 #include "checks.hpp"

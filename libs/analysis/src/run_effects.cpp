@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "kith/analysis/clustered_tests.hpp"
 #include "kith/analysis/nested_model.hpp"
 #include "run_findings.hpp"

@@ -1,6 +1,4 @@
 #pragma once
-
-#include <filesystem>
 #include <optional>
 
 #include "run_tables.hpp"

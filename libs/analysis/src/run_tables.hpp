@@ -1,12 +1,7 @@
 #pragma once
-
-#include <filesystem>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "kith/analysis/analysis.hpp"
 #include "kith/analysis/dataset.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/study/outcomes.hpp"

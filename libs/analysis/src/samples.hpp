@@ -1,6 +1,4 @@
 #pragma once
-
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>

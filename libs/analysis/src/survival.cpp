@@ -7,7 +7,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "checks.hpp"
 #include "kith/analysis/distributions.hpp"

@@ -1,7 +1,6 @@
 #include "kith/analysis/team_selection.hpp"
 
 #include <algorithm>
-#include <string>
 
 namespace kith {
 

@@ -10,8 +10,6 @@
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "kith/analysis/analysis.hpp"
 #include "kith/core/distributions.hpp"
 
 // How often each documented analysis finds an effect that is not there: 1000 simulated studies without effects, tests

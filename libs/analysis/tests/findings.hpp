@@ -7,8 +7,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
 
 namespace kith::testing {

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "common.hpp"
 #include "kith/analysis/anova.hpp"

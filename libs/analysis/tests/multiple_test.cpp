@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 #include "common.hpp"
 #include "kith/analysis/distributions.hpp"

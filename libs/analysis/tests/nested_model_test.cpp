@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <string>
-#include <vector>
 
 #include "kith/analysis/anova.hpp"
 #include "kith/analysis/marginal_means.hpp"

@@ -1,8 +1,6 @@
 #include "kith/analysis/survival.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

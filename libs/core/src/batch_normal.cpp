@@ -1,6 +1,4 @@
 #include "kith/core/batch_normal.hpp"
-
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>

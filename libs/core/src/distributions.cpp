@@ -1,6 +1,4 @@
 #include "kith/core/distributions.hpp"
-
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,8 +1,6 @@
 #include "kith/core/diagnostic.hpp"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
 #include <random>
 
 namespace kith {

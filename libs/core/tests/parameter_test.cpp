@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "kith/core/error.hpp"
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <random>
 #include <set>
 #include <type_traits>
 

@@ -1,7 +1,6 @@
 #include "condition.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 namespace kith::detail {
 namespace {

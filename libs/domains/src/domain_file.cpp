@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <optional>
 #include <system_error>
 #include <type_traits>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "explore.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace kith::detail {
 Explorer::Explorer(const FamilyMap& family_map, const Dynamics& dynamics, FeatureTable& features)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "dynamics.hpp"
 #include "explicit_family.hpp"

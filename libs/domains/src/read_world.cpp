@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
-#include <utility>
 
 #include "kith/domains/family_map.hpp"
 #include "kith/domains/layers.hpp"

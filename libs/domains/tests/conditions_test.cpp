@@ -1,7 +1,5 @@
 // What conditions mean, seen from the features that fire on given transitions.
 #include <gtest/gtest.h>
-
-#include <map>
 #include <string>
 #include <vector>
 

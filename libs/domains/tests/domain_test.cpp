@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include "domains_under_test.hpp"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <string>
 
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/variation.hpp"

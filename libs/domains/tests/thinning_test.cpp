@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <queue>
 #include <set>
-#include <stdexcept>
 
 #include "domains_under_test.hpp"
 

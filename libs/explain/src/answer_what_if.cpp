@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <set>
 #include <vector>
-
-#include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 
 namespace kith::detail {

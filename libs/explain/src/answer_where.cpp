@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kith/explain/words.hpp"
+#include "kith/core/text.hpp"
 
 namespace kith::detail {
 

@@ -1,8 +1,6 @@
 // Is something true of what the robot likes and dislikes?
 #include "answerer.hpp"
 
-#include <algorithm>
-
 #include "kith/explain/words.hpp"
 
 namespace kith::detail {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
 
 namespace kith::detail {

@@ -1,6 +1,5 @@
 #include "kith/explain/board_json.hpp"
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "deviation.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace kith::detail {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
 
 namespace kith {

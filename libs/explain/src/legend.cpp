@@ -2,7 +2,6 @@
 #include "kith/explain/wrapped.hpp"
 
 #include <fmt/format.h>
-#include <string>
 #include <vector>
 
 #include <algorithm>

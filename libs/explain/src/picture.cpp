@@ -1,7 +1,6 @@
 #include "kith/explain/picture.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "kith/explain/legend.hpp"
 #include "kith/explain/words.hpp"

@@ -14,7 +14,7 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
-#include "kith/explain/words.hpp"
+#include "kith/core/text.hpp"
 #include "question_reader.hpp"
 
 namespace kith::detail {

@@ -5,7 +5,6 @@
 #include <map>
 #include <vector>
 
-#include "deviation.hpp"
 #include "kith/bec/behaviours.hpp"
 #include "kith/explain/words.hpp"
 #include "walk.hpp"

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/text.hpp"
 #include "kith/domains/domain.hpp"
-#include "kith/explain/words.hpp"
 
 namespace kith::detail {
 

@@ -1,7 +1,5 @@
 #include "walk.hpp"
 
-#include <algorithm>
-
 namespace kith::detail {
 
 std::optional<Outcome> step_by(const Mdp& mdp, StateIndex s, ActionIndex action) {

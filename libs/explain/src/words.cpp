@@ -5,12 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "kith/explain/reason.hpp"
-#include "kith/explain/statement.hpp"
 #include "side.hpp"
 
 namespace kith {

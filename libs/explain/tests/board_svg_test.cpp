@@ -3,10 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include "domain_texts.hpp"
 #include "item_delivery.hpp"
 #include "kith/explain/inspect_svg.hpp"

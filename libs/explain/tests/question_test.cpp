@@ -7,7 +7,6 @@
 
 #include "asking.hpp"
 #include "atlases.hpp"
-#include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/words.hpp"

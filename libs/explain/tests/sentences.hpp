@@ -1,12 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "kith/domains/domain.hpp"
 #include "kith/explain/words.hpp"

@@ -9,7 +9,6 @@
 
 #include "atlases.hpp"
 #include "kith/explain/curriculum.hpp"
-#include "kith/explain/words.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 #include "lake.hpp"
 #include "sentences.hpp"

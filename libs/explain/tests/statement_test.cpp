@@ -9,7 +9,6 @@
 #include <functional>
 
 #include "atlases.hpp"
-#include "kith/bec/comparison.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "lake.hpp"

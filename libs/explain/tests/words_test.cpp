@@ -1,12 +1,9 @@
 #include "kith/explain/words.hpp"
 
 #include <gtest/gtest.h>
-
-#include <array>
 #include <cmath>
 
 #include "atlases.hpp"
-#include "kith/core/distributions.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/reason.hpp"
 

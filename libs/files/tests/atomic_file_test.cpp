@@ -6,8 +6,6 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <fstream>
 #include <thread>
 #include <vector>
 

@@ -2,11 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <map>
-#include <string>
-
-#include "kith/core/error.hpp"
 #include "scratch_folder.hpp"
 
 namespace kith {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/files/atomic_file.hpp"
 #include "kith/files/csv_reader.hpp"
 #include "kith/files/table_text.hpp"
 #include "kith/fit/import_run.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "kith/belief/prior_cover.hpp"

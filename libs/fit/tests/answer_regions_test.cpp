@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "kith/fit/log_likelihood.hpp"
 #include "simulated_people.hpp"
 

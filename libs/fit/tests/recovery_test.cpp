@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "kith/fit/answer_regions.hpp"
-#include "kith/fit/fit.hpp"
 #include "kith/fit/recovery.hpp"
 #include "simulated_people.hpp"
 

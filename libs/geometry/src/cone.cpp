@@ -4,7 +4,6 @@
 
 #include "kith/geometry/cone.hpp"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <stdexcept>

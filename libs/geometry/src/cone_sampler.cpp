@@ -6,10 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <numbers>
 #include <queue>
 #include <stdexcept>
 #include <utility>

@@ -3,8 +3,6 @@
 #include <cstddef>
 #include <span>
 #include <vector>
-
-#include "kith/core/integer_vector.hpp"
 #include "sobol.hpp"
 
 namespace kith::detail {

@@ -4,8 +4,6 @@
 #include <bit>
 #include <stdexcept>
 
-#include "kith/core/assert.hpp"
-
 namespace kith::detail {
 namespace {
 

@@ -3,9 +3,6 @@
 #include "kith/geometry/cone_sampler.hpp"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <boost/random/sobol.hpp>
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,6 @@
 
 #include <iterator>
 #include <stdexcept>
-#include <string>
 
 namespace kith {
 

@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <vector>
 
 #include "kith/core/error.hpp"
 #include "kith/learners/learner_model.hpp"

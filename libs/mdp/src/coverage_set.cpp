@@ -1,7 +1,6 @@
 #include "kith/mdp/coverage_set.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <unordered_set>

@@ -7,7 +7,6 @@
 
 #include "checks.hpp"
 #include "component_paths.hpp"
-#include "kith/core/assert.hpp"
 #include "kith/mdp/policy_partition.hpp"
 #include "normal_set.hpp"
 #include "path_follower.hpp"

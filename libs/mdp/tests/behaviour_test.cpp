@@ -7,7 +7,6 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "kith/core/error.hpp"
 #include "kith/geometry/cone.hpp"

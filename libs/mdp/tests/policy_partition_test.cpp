@@ -6,7 +6,6 @@
 #include <optional>
 #include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include "small_mdps.hpp"
 

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "kith/files/base64.hpp"
 #include "kith/geometry/outline.hpp"

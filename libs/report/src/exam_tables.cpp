@@ -1,7 +1,6 @@
 #include "exam_tables.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <set>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "kith/files/column_names.hpp"
 #include "kith/teaching/strategy.hpp"
 #include "sentences.hpp"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <string_view>
 
 #include "beliefs.hpp"
 #include "estimate_tables.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "json_table.hpp"
-#include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/study/study.hpp"
 #include "kith/study/study_file.hpp"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "kith/core/error.hpp"
-#include "kith/files/sha256.hpp"
 #include "kith/report/report.hpp"
 #include "resealed.hpp"
 #include "runs.hpp"

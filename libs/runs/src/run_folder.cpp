@@ -13,7 +13,6 @@
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/runs/journal.hpp"
-#include "kith/study/tables.hpp"
 #include "manifest.hpp"
 
 namespace kith {

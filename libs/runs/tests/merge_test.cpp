@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
-#include <vector>
 
 #include "kith/files/published_run.hpp"
 #include "study_runs.hpp"

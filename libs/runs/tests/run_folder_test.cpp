@@ -10,7 +10,6 @@
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/study/tables.hpp"
 
 namespace kith {
 namespace {

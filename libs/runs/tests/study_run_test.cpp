@@ -3,15 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
-
-#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/runs/team_codec.hpp"
 #include "study_runs.hpp"
 
 namespace kith {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "item_delivery.hpp"
 #include "kith/core/stream.hpp"
 #include "kith/study/tables.hpp"

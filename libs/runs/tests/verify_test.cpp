@@ -5,8 +5,6 @@
 #include <sqlite3.h>
 
 #include <fstream>
-#include <string>
-#include <vector>
 
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"

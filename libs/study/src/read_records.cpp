@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <optional>
 #include <type_traits>
 #include <utility>
 

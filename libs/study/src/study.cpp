@@ -4,9 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
-#include <vector>
 
 #include "kith/core/parallel_loop.hpp"
 #include "kith/study/session_forecasts.hpp"

@@ -1,12 +1,10 @@
 #include "kith/study/study_file.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <system_error>
 
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
-#include "kith/domains/domain_file.hpp"
 #include "kith/files/document.hpp"
 #include "kith/files/file.hpp"
 #include "read_prior.hpp"

@@ -1,7 +1,6 @@
 #include "team_exam.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "kith/core/stream.hpp"
 #include "kith/study/team_streams.hpp"

@@ -1,8 +1,6 @@
 #include "kith/study/team_run.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <span>
 #include <string>
 #include <tuple>
 

@@ -1,7 +1,5 @@
 #include "kith/study/transcript.hpp"
 
-#include <array>
-
 #include "kith/mdp/planner.hpp"
 #include "kith/study/session_forecasts.hpp"
 

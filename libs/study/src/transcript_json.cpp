@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "kith/explain/json.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/study/session_forecasts.hpp"
 

@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "item_delivery.hpp"
 #include "kith/explain/audit.hpp"
 #include "kith/explain/audit_report.hpp"
-#include "kith/explain/words.hpp"
 #include "kith/study/observed_team.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/team_run.hpp"

@@ -1,8 +1,6 @@
 // What an audit says of simulated people who do not learn, or do not answer, as the model assumes.
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>

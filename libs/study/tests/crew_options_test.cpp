@@ -1,9 +1,6 @@
 // Studies in which not everybody is taught all the time, people know something beforehand, or sessions are forecast.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <map>
-#include <numeric>
 #include <string>
 
 #include "item_delivery.hpp"

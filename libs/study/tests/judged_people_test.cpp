@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "item_delivery.hpp"
-#include "kith/study/session_forecasts.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/team_run.hpp"
 #include "kith/teaching/forecast.hpp"

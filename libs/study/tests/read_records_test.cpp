@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <map>
-#include <string>
 
 #include "item_delivery.hpp"
 #include "kith/core/error.hpp"
 #include "kith/study/outcomes.hpp"
-#include "kith/study/study.hpp"
 #include "kith/study/tables.hpp"
 
 namespace kith {

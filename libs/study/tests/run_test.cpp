@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "item_delivery.hpp"
@@ -11,7 +10,6 @@
 #include "kith/learners/run_period.hpp"
 #include "kith/study/study.hpp"
 #include "kith/study/summary.hpp"
-#include "kith/study/team_run.hpp"
 
 namespace kith {
 namespace {

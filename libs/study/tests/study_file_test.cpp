@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 #include "kith/core/error.hpp"

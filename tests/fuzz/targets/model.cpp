@@ -1,9 +1,6 @@
 // Explicit models and grids. The first byte says which file the rest is, or that it is the domain file that names
 // the others; these are sound. A domain or errors, never both; a domain can be asked about, taught and judged.
-
-#include <algorithm>
 #include <array>
-#include <vector>
 
 #include "../fuzzing.hpp"
 #include "../whole_robot.hpp"

@@ -4,7 +4,6 @@
 #include "../folders.hpp"
 #include "../scratch.hpp"
 #include "../small_run.hpp"
-#include "kith/core/error.hpp"
 #include "kith/runs/merge.hpp"
 
 using namespace kith;

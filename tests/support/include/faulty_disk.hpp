@@ -4,8 +4,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <cstring>
-#include <string>
 
 namespace kith::testing {
 

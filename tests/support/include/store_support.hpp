@@ -4,13 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "kith/core/error.hpp"
-#include "kith/files/atomic_file.hpp"
 #include "kith/store/event_store.hpp"
 #include "scratch_folder.hpp"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "kith/analysis/effect_size.hpp"
-#include "kith/analysis/estimable.hpp"
 #include "kith/analysis/fixed_effects.hpp"
 #include "kith/analysis/multiple.hpp"
 

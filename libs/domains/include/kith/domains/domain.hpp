@@ -3,13 +3,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kith/domains/grid_map.hpp"
-#include "kith/geometry/eigen.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/mdp/mdp.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "kith/explain/svg.hpp"
 #include "kith/geometry/cone.hpp"
-#include "kith/geometry/eigen.hpp"
 
 namespace kith {
 

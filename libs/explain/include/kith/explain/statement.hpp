@@ -1,6 +1,4 @@
 #pragma once
-
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/folder_lock.hpp"

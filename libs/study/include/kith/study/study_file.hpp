@@ -1,6 +1,4 @@
 #pragma once
-
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -3,8 +3,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "kith/study/team_run.hpp"
 #include "kith/teaching/forecast.hpp"
 
 namespace kith {
