@@ -26,9 +26,8 @@ Outcome outcome_of(const std::vector<Diagnostic>& diagnostics) {
 
 Outcomes::Outcomes() : memory_(kMostRemembered) {
   for (auto& kept : kept_) kept.inputs.resize(kMostKept);
-  for (auto& kept : kept_) {
+  for (auto& kept : kept_)
     for (auto& input : kept.inputs) input.reserve(kLongestKept);
-  }
 }
 
 Outcomes::~Outcomes() {

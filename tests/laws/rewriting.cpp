@@ -261,9 +261,8 @@ std::optional<Rewriting> transposed(const DomainText& domain) {
   if (!has_map_of_rows(domain) || has_choices_by_position(domain)) return std::nullopt;
   const auto rows = rows_of(domain);
   std::vector<std::string> columns(rows.front().size());
-  for (const auto& row : rows) {
+  for (const auto& row : rows)
     for (std::size_t x = 0; x < row.size(); ++x) columns[x] += row[x];
-  }
   return with_rows(domain, "transposed", columns);
 }
 

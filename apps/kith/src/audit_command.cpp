@@ -94,9 +94,8 @@ class RunAudit {
     AuditReport report{.source = options_.folder,
                        .people = {},
                        .options = audit_options(study_.variants[0].teaching, options_.forgetting)};
-    for (auto& team : judged) {
+    for (auto& team : judged)
       for (auto& member : team) report.people.push_back(std::move(member));
-    }
     return report;
   }
 
@@ -228,9 +227,7 @@ class AuditText {
                        world_text(atlas_.domain(), atlas_.id(answer.start).mdp), answer.text),
            7);
     }
-    if (found.show) {
-      line("show: " + place(*found.show) + (found.reason.empty() ? "" : "; " + found.reason), 5);
-    }
+    if (found.show) line("show: " + place(*found.show) + (found.reason.empty() ? "" : "; " + found.reason), 5);
   }
 
   [[nodiscard]] std::string place(StartIndex start) const {

@@ -15,9 +15,7 @@ void report_failures(const Study& study, const std::vector<TeamFailure>& failure
   for (const auto& [team, message] : failures) {
     console.warning(describe_team(study, team_address(study, team)) + " failed: " + message);
   }
-  if (!failures.empty()) {
-    console.warning(counted(failures.size(), "team") + " failed; rerun the command to retry them");
-  }
+  if (!failures.empty()) console.warning(counted(failures.size(), "team") + " failed; rerun the command to retry them");
 }
 
 int publish_run(StudyRun& run, RunFacts facts, const RunPlace& place, Console& console) {

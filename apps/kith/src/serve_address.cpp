@@ -84,9 +84,7 @@ std::optional<PublicUrl> public_url_of(std::string text) {
 }
 
 void check_combination(const ServeOptions& options) {
-  if (options.lan && is_loopback(options.bind)) {
-    refuse("--lan and --bind " + options.bind + " contradict each other");
-  }
+  if (options.lan && is_loopback(options.bind)) refuse("--lan and --bind " + options.bind + " contradict each other");
   if (options.trusted_proxy.empty()) return;
   if (!is_address(options.trusted_proxy)) {
     refuse("--trusted-proxy must be an IP address such as 192.0.2.1, not '" + options.trusted_proxy + "'");

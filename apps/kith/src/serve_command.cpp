@@ -189,9 +189,7 @@ void print_links(const Links& links, const fs::path& folder, std::uint16_t port,
   }
   std::string text = "facilitator  " + links.facilitator + "\n";
   text += "observer     " + links.observer + "\n";
-  if (links.seats.empty()) {
-    text += "participants " + links.join + "   (code " + links.code + ")" + "\n";
-  }
+  if (links.seats.empty()) text += "participants " + links.join + "   (code " + links.code + ")" + "\n";
   for (std::size_t i = 0; i < links.seats.size(); ++i) text += fmt::format("person {}     {}\n", i + 1, links.seats[i]);
   text += "data         " + folder.string() + "\n";
   console.print(text);

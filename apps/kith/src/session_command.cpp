@@ -115,9 +115,7 @@ std::set<std::string> replaced_by_export(const SessionOptions& options) {
   std::error_code none;
   if (!fs::exists(folder, none) || fs::is_empty(folder, none)) return {};
   const auto former = files_of_export(folder);
-  if (!former) {
-    refuse(options.out + " is not empty and is no export of a session", "choose another folder");
-  }
+  if (!former) refuse(options.out + " is not empty and is no export of a session", "choose another folder");
   if (!options.yes) refuse(options.out + " exists already", Remedy::kReplaceContents);
   return *former;
 }

@@ -62,9 +62,7 @@ Term term_of(const std::string& piece, double sign) {
   Term term{{piece, sign}};
   const auto star = piece.find('*');
   if (star != std::string::npos) {
-    if (const auto number = number_in(piece.substr(0, star))) {
-      term = {{piece.substr(star + 1), sign * *number}, true};
-    }
+    if (const auto number = number_in(piece.substr(0, star))) term = {{piece.substr(star + 1), sign * *number}, true};
   }
   auto& level = term.weight.level;
   level.erase(std::remove(level.begin(), level.end(), '`'), level.end());

@@ -68,9 +68,8 @@ double mean_square(const std::vector<double>& effects) {
 std::vector<double> cell_means(const TeamPool& pool, const Effect& effect, const std::vector<std::size_t>& groups,
                                const std::vector<std::size_t>& compositions) {
   std::vector<double> means;
-  for (const auto s : groups) {
+  for (const auto s : groups)
     for (const auto c : compositions) means.push_back(mean(pool.cell(*effect.outcome, s, c)));
-  }
   return means;
 }
 

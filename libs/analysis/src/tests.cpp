@@ -186,9 +186,8 @@ Estimable<MeanDifference> paired_t_test(std::span<const double> a, std::span<con
   if (a.size() < 2) return Result::impossible("fewer than two pairs");
   // Scaled first: a difference may be beyond the range of double.
   double largest = 0.0;
-  for (const auto sample : {a, b}) {
+  for (const auto sample : {a, b})
     for (const double value : sample) largest = std::max(largest, std::abs(value));
-  }
   const int exponent = largest > 0.0 ? std::ilogb(largest) + 1 : 0;
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = std::ldexp(a[i], -exponent) - std::ldexp(b[i], -exponent);

@@ -54,9 +54,8 @@ TeamPool shares_pool() {
   std::vector<std::vector<std::vector<double>>> values(
       kStrategies.size(), std::vector<std::vector<double>>(kCompositions.size(), std::vector<double>(50)));
   for (auto& strategy : values) {
-    for (auto& cell : strategy) {
+    for (auto& cell : strategy)
       for (auto& value : cell) value = 0.9 + 0.1 * uniform01(random);
-    }
   }
   return {kStrategies, kCompositions, values};
 }

@@ -43,9 +43,7 @@ bool is_in_range(const Parameter& parameter, double value) {
 bool is_possible(const Parameter& parameter, const ParameterValue& value) {
   if (value.index() != parameter.default_value.index()) return false;
   if (const auto* real = std::get_if<double>(&value)) return is_in_range(parameter, *real);
-  if (const auto* count = std::get_if<std::int64_t>(&value)) {
-    return is_in_range(parameter, static_cast<double>(*count));
-  }
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return is_in_range(parameter, static_cast<double>(*count));
   if (const auto* word = std::get_if<std::string>(&value)) {
     return parameter.words.empty() ||
            std::find(parameter.words.begin(), parameter.words.end(), *word) != parameter.words.end();

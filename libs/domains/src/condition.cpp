@@ -92,12 +92,8 @@ class Parser {
     if (!named && kind == "exit") return action("exit", begin);
     if (!named && kind == "goal") return Atom{Atom::Kind::kAnyGoal, 0};
     if (kind == "action" && named) return action(name, name_at);
-    if (kind == "leave" && named) {
-      return place(name, name_at, Atom::Kind::kLeaveTerrain, Atom::Kind::kLeaveStation);
-    }
-    if (kind == "enter" && named) {
-      return place(name, name_at, Atom::Kind::kEnterTerrain, Atom::Kind::kEnterStation);
-    }
+    if (kind == "leave" && named) return place(name, name_at, Atom::Kind::kLeaveTerrain, Atom::Kind::kLeaveStation);
+    if (kind == "enter" && named) return place(name, name_at, Atom::Kind::kEnterTerrain, Atom::Kind::kEnterStation);
     if (kind == "carrying" && named)
       return look_up(name, name_at, item_names(family_map), Atom::Kind::kCarrying, "item");
     if (kind == "deliver" && named) return deliver(name, name_at);

@@ -342,9 +342,7 @@ void refuse_models_of_others(const std::filesystem::path& path) {
 DomainReading read_domain(const std::filesystem::path& path) {
   refuse_models_of_others(path);
   const auto text = read_toml_text(path);
-  if (!text) {
-    throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string() + ": " + why_unreadable(path)};
-  }
+  if (!text) throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string() + ": " + why_unreadable(path)};
   return parse_domain(*text, path.string(), {}, {.folder = path.parent_path()});
 }
 

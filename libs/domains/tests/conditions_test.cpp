@@ -182,9 +182,7 @@ weights = { step = -1 }
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
     const GridState state = domain.map()->state(MdpIndex{0}, StateIndex{s});
     EXPECT_LE(state.carried[0] + state.carried[1], 1);
-    for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_TRUE(!state.carried[i] || state.items[i] == state.robot);
-    }
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(!state.carried[i] || state.items[i] == state.robot);
   }
   // 4 robot cells; pen anywhere or carried; cup on three cells or carried; never both carried:
   // both lying 4*4*3, one carried 4*3 + 4*4. The cup is terminal on the fourth cell.

@@ -144,9 +144,8 @@ Sets random_sets(std::mt19937& random) {
   Sets sets(2 + random() % 6);
   for (std::size_t s = 0; s + 1 < sets.size(); ++s) {
     sets[s].resize(1 + random() % 3);
-    for (auto& next : sets[s]) {
+    for (auto& next : sets[s])
       for (std::size_t k = 0; k < 1 + random() % 2; ++k) next.insert(random() % sets.size());
-    }
   }
   return sets;
 }

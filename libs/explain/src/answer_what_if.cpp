@@ -116,9 +116,7 @@ MdpIndex Answerer::world_with(MdpIndex base) const {
       variant[g] = condition.present;
     }
     const auto where = condition.cell ? " at " + cell_text(*map_, *condition.cell) : std::string{};
-    if (!found) {
-      fail(text_, condition.place, "E1108", "no world has " + condition.thing + where, Remedy::kShowMap);
-    }
+    if (!found) fail(text_, condition.place, "E1108", "no world has " + condition.thing + where, Remedy::kShowMap);
     if (!changes) {
       fail(text_, condition.place, "E1108",
            scene_.name_of(base) + (condition.present ? " already has " : " has no ") + condition.thing + where,

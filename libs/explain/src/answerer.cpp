@@ -114,9 +114,7 @@ std::string Answerer::nothing_else(MdpIndex world, const Happening& happening, b
   }
   if (atlas_.find_tables()) return happens ? "it happens on no sensible path" : "it happens on every sensible path";
   const bool tried_others = !happening.action && !question_.is_about_a_step();
-  if (!tried_others) {
-    return happens ? "no other single step would lead to it" : "no other single step would avoid it";
-  }
+  if (!tried_others) return happens ? "no other single step would lead to it" : "no other single step would avoid it";
   if (!happens) return "it happens on every sensible path";
   return domain_.weights().integer[happening.feature] < 0 ? "it would not, even if that were free"
                                                           : "it happens on no sensible path";

@@ -98,9 +98,8 @@ std::string title_of(const Domain& domain) {
 
 template <typename Visit>
 void for_each_cell_from_bottom(const GridMap& map, const Visit& visit) {
-  for (int y = 1; y <= map.height(); ++y) {
+  for (int y = 1; y <= map.height(); ++y)
     for (int x = 1; x <= map.width(); ++x) visit(Cell{x, y});
-  }
 }
 
 SvgFile map_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {

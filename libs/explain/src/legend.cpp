@@ -37,9 +37,8 @@ char glyph_at(const Picture& picture, const Cell& cell) {
 
 template <typename Visit>
 void for_each_cell_from_top(const GridMap& map, const Visit& visit) {
-  for (int y = map.height(); y >= 1; --y) {
+  for (int y = map.height(); y >= 1; --y)
     for (int x = 1; x <= map.width(); ++x) visit(Cell{x, y});
-  }
 }
 
 std::string name_of(const GridMap& map, const Shown& what, const LegendEntry& symbol) {

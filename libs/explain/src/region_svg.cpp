@@ -45,9 +45,8 @@ class Sphere {
                         {"fill", "none"},
                         {"stroke", kMuted},
                         {"stroke-width", "1.5"}});
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k)
       for (const double sign : {1.0, -1.0}) axis(k, sign);
-    }
     svg_.add("circle", {{"cx", "0"}, {"cy", "0"}, {"r", "5"}, {"fill", kRobot}, {"stroke", "#ffffff"}});
     return svg_;
   }

@@ -125,9 +125,7 @@ bool TomlReader::has(std::string_view key) {
 const TomlValue* TomlReader::value(std::string_view key, Presence presence) {
   know(key);
   const TomlValue* value = table_.find(key);
-  if (value == nullptr && presence == Presence::kRequired) {
-    report_.error("E0109", place_, missing(key));
-  }
+  if (value == nullptr && presence == Presence::kRequired) report_.error("E0109", place_, missing(key));
   return value;
 }
 

@@ -18,9 +18,7 @@ class RandomToml {
   TomlTable table(int depth) {
     TomlTable table;
     const std::size_t n = below(5);
-    for (std::size_t i = 0; i < n; ++i) {
-      table.set({text(), {}, value(depth)});
-    }
+    for (std::size_t i = 0; i < n; ++i) table.set({text(), {}, value(depth)});
     return table;
   }
 
@@ -41,9 +39,7 @@ class RandomToml {
         TomlArray array;
         const std::size_t n = below(4);
         const bool tables = below(2) == 0;
-        for (std::size_t i = 0; i < n; ++i) {
-          array.push_back(tables ? TomlValue{table(depth - 1)} : value(depth - 1));
-        }
+        for (std::size_t i = 0; i < n; ++i) array.push_back(tables ? TomlValue{table(depth - 1)} : value(depth - 1));
         return TomlValue{std::move(array)};
     }
   }

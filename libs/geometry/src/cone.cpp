@@ -262,9 +262,8 @@ IntegerVector Cone::interior_direction() const {
   if (dimension_ == 3) return interior_direction_in_space();
   if (rays_.empty()) return lines_.back();
   Wide sum{};
-  for (const IntegerVector& ray : rays_) {
+  for (const IntegerVector& ray : rays_)
     for (std::size_t k = 0; k < dimension_; ++k) sum[k] += ray[k];
-  }
   return narrowed(sum, dimension_);
 }
 

@@ -195,9 +195,7 @@ void Cone::clip_line(const HalfSpace& half_space, std::size_t line) {
   }
   reduce_rows(lines);
   std::vector<IntegerVector> rays;
-  for (const IntegerVector& ray : rays_) {
-    rays.push_back(reduced(combination(height, ray, -dot(c, ray), out), lines));
-  }
+  for (const IntegerVector& ray : rays_) rays.push_back(reduced(combination(height, ray, -dot(c, ray), out), lines));
   rays.push_back(reduced(out, lines));
 
   const FacetSets old{std::move(tight_), facets_.size()};

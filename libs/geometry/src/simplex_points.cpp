@@ -57,9 +57,8 @@ void SimplexPoints::append(const Sobol& sobol, std::size_t n, std::vector<double
 std::vector<Sobol::Shift> area_shifts() {
   std::vector<Sobol::Shift> shifts(kAreaEstimates);
   RandomStream random{kShiftSeed};
-  for (auto& shift : shifts) {
+  for (auto& shift : shifts)
     for (std::uint32_t& bits : shift) bits = random();
-  }
   return shifts;
 }
 

@@ -105,9 +105,8 @@ std::vector<HalfSpace> cuts_through(const Cone& cone, std::size_t count, RandomS
   std::vector<HalfSpace> cuts;
   while (cuts.size() < count) {
     IntegerVector w(3);
-    for (const IntegerVector& g : generators) {
+    for (const IntegerVector& g : generators)
       for (auto times = uniform_index(6, random); times > 0; --times) w += g;
-    }
     const IntegerVector normal = cross(w, testing::random_vector(5, random));
     if (!normal.is_zero() && cone.is_cut_by(HalfSpace{normal})) cuts.emplace_back(normal);
   }

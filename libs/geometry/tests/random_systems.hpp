@@ -24,9 +24,8 @@ inline std::int64_t random_integer(std::int64_t largest, RandomStream& random) {
 /// A non-zero vector with entries in [-largest, largest].
 inline IntegerVector random_vector(std::int64_t largest, RandomStream& random, std::size_t dimension = 3) {
   IntegerVector v(dimension);
-  while (v.is_zero()) {
+  while (v.is_zero())
     for (std::size_t k = 0; k < dimension; ++k) v[k] = random_integer(largest, random);
-  }
   return v;
 }
 

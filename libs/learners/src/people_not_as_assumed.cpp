@@ -87,9 +87,7 @@ class Guesser final : public Learner {
     const auto& atlas = behaviours.atlas();
     std::vector<IntegerVector> all;
     if (const auto* tables = atlas.find_tables(); tables && path_ != Path::kOwn) {
-      for (const auto& loss : tables->hull(tables->hull(test)).losses) {
-        all.push_back(atlas.feature_counts(test) - loss);
-      }
+      for (const auto& loss : tables->hull(tables->hull(test)).losses) all.push_back(atlas.feature_counts(test) - loss);
       return all;
     }
     for (const auto& weights : people_) {

@@ -20,9 +20,7 @@ void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, 
   for (const auto& shown : lesson.demonstrations) demos.push_back(shown.start);
   learner.see(cache.atlas(), demos);
   std::vector<Direction> expected;
-  if (options.own_counterfactuals > 0) {
-    expected = learner.imagined_weights(options.own_counterfactuals, lesson.period);
-  }
+  if (options.own_counterfactuals > 0) expected = learner.imagined_weights(options.own_counterfactuals, lesson.period);
   if (expected.empty()) {
     std::vector<HalfSpace> conveyed;
     for (const auto& shown : lesson.demonstrations) {

@@ -33,9 +33,8 @@ bool can_go_on_everywhere(const Mdp& mdp) {
 
 void count_in_units(std::int64_t scale, std::vector<IntegerVector>& counts) {
   if (scale == 1) return;
-  for (IntegerVector& mu : counts) {
+  for (IntegerVector& mu : counts)
     for (std::size_t k = 0; k < mu.size(); ++k) mu[k] *= scale;
-  }
 }
 
 std::vector<IntegerVector> rounded(const Mdp& mdp, std::span<const double> features, std::int64_t scale) {

@@ -59,9 +59,8 @@ class NormalSet {
     std::partial_sort(order.begin(), last, order.end());
     std::vector<double> sorted;
     sorted.reserve(normals_.size());
-    for (const auto& [margin, i] : order) {
+    for (const auto& [margin, i] : order)
       for (std::size_t k = 0; k < d_; ++k) sorted.push_back(normals_[i + k]);
-    }
     return sorted;
   }
 

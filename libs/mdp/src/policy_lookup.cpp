@@ -280,9 +280,7 @@ class PolicyLookup::Body {
     for (const std::uint32_t exit : known_->exits(c)) {
       if (exit >= known_->mdp().num_states()) continue;
       const double* const counts = expected_at(exit);
-      for (std::size_t k = 0; k < weights_.size(); ++k) {
-        differences_.push_back(std::bit_cast<std::int64_t>(counts[k]));
-      }
+      for (std::size_t k = 0; k < weights_.size(); ++k) differences_.push_back(std::bit_cast<std::int64_t>(counts[k]));
     }
     const Part* part = known_->candidate(c, differences_, weights_);
     if (part == nullptr || !holds(*part)) {

@@ -59,9 +59,8 @@ Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask) {
     return mask.empty() || mask[mdp.first_choice(s) + c] != 0;
   };
   std::vector<std::uint32_t> first(n, 0);
-  for (std::size_t s = 0; s < n; ++s) {
+  for (std::size_t s = 0; s < n; ++s)
     while (!is_allowed(StateIndex{s}, first[s])) ++first[s];
-  }
   if (mdp.is_deterministic() && mdp.discount() < 1.0) {
     Policy policy{std::move(first), {}};
     if (finishes_as_far_as_allowed(mdp, mask, policy)) return policy;

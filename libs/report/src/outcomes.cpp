@@ -86,9 +86,7 @@ std::vector<StudyOutcome> outcomes_of(const FirstScreen& screen) {
     if (compares_with_alone(screen)) outcomes.push_back(kPersonPeriods);
   }
   outcomes.push_back(known(screen));
-  if (screen.data.has_exam && !screen.data.leads_with_exam) {
-    outcomes.push_back(outcome_named(columns::kExamShareRight));
-  }
+  if (screen.data.has_exam && !screen.data.leads_with_exam) outcomes.push_back(outcome_named(columns::kExamShareRight));
   return outcomes;
 }
 

@@ -25,9 +25,7 @@ Json cell_keys(const ReportDesign& design, std::size_t cell) {
 
 std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity) {
   std::vector<Values> result(design.cells.size());
-  for (std::size_t i = 0; i < data.teams.size(); ++i) {
-    result[design.cell_of_team[i]].push_back(quantity(data.teams[i]));
-  }
+  for (std::size_t i = 0; i < data.teams.size(); ++i) result[design.cell_of_team[i]].push_back(quantity(data.teams[i]));
   return result;
 }
 

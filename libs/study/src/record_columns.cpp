@@ -15,9 +15,8 @@ bool any_variant(const Study& study, Holds holds) {
 // The learner types of all variants, as they have the model that a variant gives them, by letter.
 std::vector<const LearnerType*> types_of(const Study& study) {
   std::vector<const LearnerType*> types;
-  for (const auto& variant : study.variants) {
+  for (const auto& variant : study.variants)
     for (const auto& type : variant.learner_types) types.push_back(&type);
-  }
   std::stable_sort(types.begin(), types.end(),
                    [](const LearnerType* a, const LearnerType* b) { return a->letter < b->letter; });
   return types;

@@ -339,9 +339,7 @@ StudyReading load_study(const std::string& name_or_path, StudyReadOptions option
     throw Error{{unknown}};
   }
   const auto text = read_toml_text(path);
-  if (!text) {
-    throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "': " + why_unreadable(path)};
-  }
+  if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "': " + why_unreadable(path)};
   options.folder = path.parent_path();
   return parse_study(*text, name_or_path, options);
 }
