@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
+#include "kith/core/math.hpp"
 #include "kith/geometry/cover.hpp"
 #include "policy_fit.hpp"
 
@@ -43,7 +44,8 @@ Weights centre_of(const Cone& region) {
 }
 
 std::optional<Weights> rounded_to(const Weights& w, int digits) {
-  const double unit = std::pow(10.0, digits);
+  double unit = 1.0;
+  for (int i = 0; i < digits; ++i) unit *= 10.0;
   Weights few;
   for (const double x : w) few.push_back(std::round(x * unit) / unit + 0.0);
   const bool is_zero = std::ranges::all_of(few, [](double x) { return x == 0.0; });
@@ -231,10 +233,10 @@ class PolicyInference {
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
     const double p = by_chance / n;
     const double x = std::min(explained / n, 1.0);
-    const auto part = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
+    const auto part = [](double a, double b) { return a > 0.0 ? a * math::log(a / b) : 0.0; };
     const double divergence = x <= p || p >= 1.0 ? 0.0 : part(x, p) + part(1.0 - x, 1.0 - p);
-    const double chance = std::log(static_cast<double>(fit_.num_behaviours())) - n * divergence;
-    if (look.share >= kLeastExplained && chance < std::log(kMostChance)) return;
+    const double chance = math::log(static_cast<double>(fit_.num_behaviours())) - n * divergence;
+    if (look.share >= kLeastExplained && chance < math::log(kMostChance)) return;
     const auto percent = [](double part_of) { return std::to_string(std::lround(100.0 * part_of)) + " %"; };
     refuse("E0341",
            "no weights explain what this robot does: the best explain " + percent(look.share) +

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kith/core/distributions.hpp"
+#include "kith/core/math.hpp"
 #include "scratch.hpp"
 
 namespace kith::detail {
@@ -45,7 +46,7 @@ Direction moved(const Direction& p, std::span<const double> tangent) {
   mirror[last] += p[last] >= 0.0 ? 1.0 : -1.0;
   step -= (2.0 * mirror.dot(step) / mirror.squaredNorm()) * mirror;
   const double angle = std::sqrt(square);
-  return (std::cos(angle) * p + (std::sin(angle) / angle) * step).normalized();
+  return (math::cos(angle) * p + (math::sin(angle) / angle) * step).normalized();
 }
 
 Direction moved_inside(const Direction& p, double angle, std::span<const Direction> normals, RandomStream& random) {
@@ -97,7 +98,7 @@ double weighted_square_angles(const AxisPoints& points, std::span<const double> 
   for (std::size_t i = 0; i < weights.size(); ++i) {
     // By the chord, which is accurate for small angles too.
     const double chord = (point_at(points.values, points.dimension, i) - centre).norm();
-    const double angle = 2.0 * std::asin(std::min(1.0, 0.5 * chord));
+    const double angle = 2.0 * math::asin(std::min(1.0, 0.5 * chord));
     sum += weights[i] * angle * angle;
   }
   return sum;

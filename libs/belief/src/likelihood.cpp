@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kith/core/math.hpp"
 #include "kith/geometry/cone.hpp"
 #include "likelihood_integrals.hpp"
 
@@ -41,8 +42,8 @@ double continuous_concentration(double ability) {
   const double q = (1.0 - ability) / ability;
   double k = 1.0 / q;
   for (int step = 0; step < 200; ++step) {
-    const double slope = q - std::exp(-k);
-    const double next = k - (q * k + std::expm1(-k)) / slope;
+    const double slope = q - math::exp(-k);
+    const double next = k - (q * k + math::expm1(-k)) / slope;
     if (!(slope > 0.0) || !(next < k)) break;
     k = next;
   }
@@ -50,7 +51,7 @@ double continuous_concentration(double ability) {
 }
 
 // ln(beta / (1 - beta)), exact near 0.5.
-double log_odds(double ability) { return 2.0 * std::atanh(2.0 * ability - 1.0); }
+double log_odds(double ability) { return math::log1p((2.0 * ability - 1.0) / (1.0 - ability)); }
 
 double concentration_for(double ability, LikelihoodForm form, std::size_t dimension) {
   if (ability >= 1.0) return kInfinity;
@@ -67,9 +68,9 @@ double discontinuous_log_far(double ability, double kappa, std::size_t dimension
   const double s = 2.0 * ability - 1.0;
   if (s <= 0.0) return 0.0;
   if (ability >= 1.0) return -kInfinity;
-  if (dimension == kSpace) return std::min(0.0, std::log((1.0 - ability) * (kappa / s)));
+  if (dimension == kSpace) return std::min(0.0, math::log((1.0 - ability) * (kappa / s)));
   const double ratio = detail::far_integral(0.0, dimension) / detail::far_integral(kappa, dimension);
-  return std::min(0.0, std::log((1.0 - ability) / ability * ratio));
+  return std::min(0.0, math::log((1.0 - ability) / ability * ratio));
 }
 
 double half_area(std::size_t dimension) {
@@ -83,14 +84,14 @@ HalfSpaceLikelihood::HalfSpaceLikelihood(double ability, LikelihoodForm form, st
       form_{form},
       dimension_{checked_dimension(dimension)},
       kappa_{concentration_for(ability, form, dimension)},
-      log_near_{std::log(ability / half_area(dimension))},
+      log_near_{math::log(ability / half_area(dimension))},
       log_far_{form == LikelihoodForm::kDiscontinuous ? discontinuous_log_far(ability, kappa_, dimension) : 0.0} {}
 
 bool HalfSpaceLikelihood::is_hard() const noexcept { return ability_ >= 1.0; }
 
 double HalfSpaceLikelihood::density(double t) const noexcept {
   const double near = ability_ / half_area(dimension_);
-  return t >= 0.0 ? near : near * std::exp(log_relative(t));
+  return t >= 0.0 ? near : near * math::exp(log_relative(t));
 }
 
 double HalfSpaceLikelihood::log_density(double t) const noexcept { return log_near_ + log_relative(t); }
@@ -105,7 +106,7 @@ double scaled_ability(double ability, double scale) {
     throw std::invalid_argument("scaled_ability: the scale must be positive and finite");
   }
   if (ability >= 1.0 || scale == 1.0) return ability;  // 1 stays 1, and no scale changes no bit
-  return 1.0 / (1.0 + std::pow((1.0 - ability) / ability, scale));
+  return 1.0 / (1.0 + math::pow((1.0 - ability) / ability, scale));
 }
 
 }  // namespace kith

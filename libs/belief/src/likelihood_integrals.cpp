@@ -3,10 +3,11 @@
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/roots.hpp>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <vector>
+
+#include "kith/core/math.hpp"
 
 namespace kith::detail {
 namespace {
@@ -30,7 +31,9 @@ struct Node {
   double power;  // cos(u)^(d-2)
 };
 Node node_at(double u, std::size_t dimension) {
-  return {std::sin(u), std::pow(std::cos(u), static_cast<int>(dimension) - 2)};
+  double power = 1.0;
+  for (std::size_t k = 2; k < dimension; ++k) power *= math::cos(u);
+  return {math::sin(u), power};
 }
 
 // The nodes of a right angle, in the order in which quadrature asks for them.
@@ -65,7 +68,12 @@ double integral(std::size_t dimension, double upper, Function value) {
 
 // exp(-kappa) far_integral(-kappa): the near half, relative to its largest density.
 double scaled_near_integral(double kappa, std::size_t dimension) {
-  return integral(dimension, kRightAngle, [&](double t) { return std::exp(kappa * (t - 1.0)); });
+  return integral(dimension, kRightAngle, [&](double t) { return math::exp(kappa * (t - 1.0)); });
+}
+
+double sinh(double x) {
+  const double e = math::expm1(x);
+  return 0.5 * (e + e / (1.0 + e));
 }
 
 // The kappa > 0 at which a rising function is 0, from a guess of the right order.
@@ -84,24 +92,25 @@ constexpr double kLargeOdds = 0.5;  // above it, 1 - odds is solved for, which k
 
 double far_integral(double kappa, std::size_t dimension) {
   constexpr double kNothing = 40.0;  // exp(-40) is less than a double resolves beside 1
-  const double upper = kappa > kNothing ? std::asin(kNothing / kappa) : kRightAngle;
-  return integral(dimension, upper, [&](double t) { return std::exp(-kappa * t); });
+  const double upper = kappa > kNothing ? math::asin(kNothing / kappa) : kRightAngle;
+  return integral(dimension, upper, [&](double t) { return math::exp(-kappa * t); });
 }
 
 double concentration_of_sphere(double ability, std::size_t dimension) {
   const double s = 2.0 * ability - 1.0;  // (near - far) / (near + far), exactly
   if (s <= 0.0) return 0.0;
-  const double log_odds = 2.0 * std::atanh(s);  // the concentration in space
+  const double log_odds = math::log1p(2.0 * s / (1.0 - s));  // the concentration in space
   if (s < kLargeOdds) {
     return root_near(log_odds, [&](double kappa) {
-      const double odd = integral(dimension, kRightAngle, [&](double t) { return std::sinh(kappa * t); });
-      const double even = integral(dimension, kRightAngle, [&](double t) { return std::cosh(kappa * t); });
+      const double odd = integral(dimension, kRightAngle, [&](double t) { return sinh(kappa * t); });
+      const double even =
+          integral(dimension, kRightAngle, [&](double t) { return sinh(kappa * t) + math::exp(-kappa * t); });
       return odd / even - s;
     });
   }
   return root_near(log_odds, [&](double kappa) {
     const double ratio = scaled_near_integral(kappa, dimension) / far_integral(kappa, dimension);
-    return kappa + std::log(ratio) - log_odds;
+    return kappa + math::log(ratio) - log_odds;
   });
 }
 
@@ -113,11 +122,11 @@ double concentration_of_half(double ability, std::size_t dimension) {
   const double guess = s / (1.0 - ability);  // right in order at both ends
   if (odds > kLargeOdds) {
     return root_near(guess, [&](double kappa) {
-      const double lost = integral(dimension, kRightAngle, [&](double t) { return -std::expm1(-kappa * t); });
+      const double lost = integral(dimension, kRightAngle, [&](double t) { return -math::expm1(-kappa * t); });
       return lost / half - s / ability;
     });
   }
-  return root_near(guess, [&](double kappa) { return std::log(odds * half / far_integral(kappa, dimension)); });
+  return root_near(guess, [&](double kappa) { return math::log(odds * half / far_integral(kappa, dimension)); });
 }
 
 }  // namespace kith::detail

@@ -6,6 +6,7 @@
 #include "kernels.hpp"
 #include "kith/core/batch_normal.hpp"
 #include "kith/core/distributions.hpp"
+#include "kith/core/math.hpp"
 #include "kith/core/vector_clones.hpp"
 
 namespace kith::detail {
@@ -32,9 +33,9 @@ Eigen::Vector3d tangent(const Eigen::Vector3d& p, const Step& step) {
 
 // The exponential map, for any length of the step.
 Eigen::Vector3d moved(const Eigen::Vector3d& p, const Step& step) {
-  const double angle = std::hypot(step.along, step.across);
+  const double angle = std::sqrt(step.along * step.along + step.across * step.across);
   if (angle == 0.0) return p;
-  const Eigen::Vector3d to = std::cos(angle) * p + (std::sin(angle) / angle) * tangent(p, step);
+  const Eigen::Vector3d to = math::cos(angle) * p + (math::sin(angle) / angle) * tangent(p, step);
   return to / to.norm();
 }
 

@@ -8,6 +8,7 @@
 #include "kernels.hpp"
 #include "kith/core/distributions.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/math.hpp"
 #include "scratch.hpp"
 #include "sphere_points.hpp"
 #include "systematic.hpp"
@@ -43,7 +44,7 @@ ParticleBelief::ParticleBelief(const PriorCover& cover, const FilterOptions& opt
       points_{cover.points()},
       log_weights_(cover.size(), 0.0),
       weights_(cover.size(), 1.0 / static_cast<double>(cover.size())),
-      log_sum_{std::log(static_cast<double>(cover.size()))},
+      log_sum_{math::log(static_cast<double>(cover.size()))},
       least_support_{static_cast<double>(cover.size())},
       product_{dimension_ > 3 && options.process_noise > 0.0} {
   if (cover.size() != options.particles) {
@@ -127,7 +128,7 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
     return;
   }
   detail::subtract(factors, top, log_weights_);
-  log_sum_ = std::log(sum);
+  log_sum_ = math::log(sum);
   detail::scale_by(1.0 / sum, weights_);
 }
 
@@ -140,7 +141,7 @@ void ParticleBelief::resample(double sum, RandomStream& random) {
   const auto count = static_cast<double>(size());
   std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
   std::fill(weights_.begin(), weights_.end(), 1.0 / count);
-  log_sum_ = std::log(count);
+  log_sum_ = math::log(count);
   ++num_resamplings_;
 }
 
@@ -150,7 +151,7 @@ double ParticleBelief::kernel_angle(double sum) const {
   const auto centre = mean_direction();
   const double square = detail::SpherePoints{points_, dimension_}.rough_square_angles(weights_, centre) / sum;
   const double exponent = -1.0 / (static_cast<double>(dimension_) + 3.0);
-  return options_.process_noise * std::sqrt(square) * std::pow(count, exponent);
+  return options_.process_noise * std::sqrt(square) * math::pow(count, exponent);
 }
 
 void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random) {
@@ -214,10 +215,10 @@ void ParticleBelief::take_logs_of_weights() {
   const double top = *std::max_element(weights_.begin(), weights_.end());
   double sum = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
-    log_weights_[i] = std::log(weights_[i] / top);
+    log_weights_[i] = math::log(weights_[i] / top);
     sum += weights_[i] / top;
   }
-  log_sum_ = std::log(sum);
+  log_sum_ = math::log(sum);
   detail::scale_by(1.0 / (sum * top), weights_);
 }
 
@@ -236,7 +237,7 @@ double ParticleBelief::log_evidence(std::span<const HalfSpace> half_spaces,
   const double top = detail::add(log_weights_, factors);
   if (!(top > -std::numeric_limits<double>::infinity())) return top;
   const double sum = detail::exp_below(factors, top, factors);
-  return near + (top + std::log(sum) - log_sum_);
+  return near + (top + math::log(sum) - log_sum_);
 }
 
 double ParticleBelief::effective_size(double sum, double sum_of_squares) const noexcept {

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kith/core/math.hpp"
+
 namespace kith {
 namespace {
 
@@ -15,9 +17,9 @@ struct NormalPair {
 
 // Box & Muller (1958). 1 - u lies in (0, 1], so the logarithm is finite.
 NormalPair normal_pair(RandomStream& random) noexcept {
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform01(random)));
+  const double radius = std::sqrt(-2.0 * math::log(1.0 - uniform01(random)));
   const double angle = 2.0 * std::numbers::pi * uniform01(random);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  return {radius * math::cos(angle), radius * math::sin(angle)};
 }
 
 std::size_t wide_index(std::uint64_t n, RandomStream& random) {

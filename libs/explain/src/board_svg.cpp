@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <numbers>
 #include <string_view>
 
 #include "drawing.hpp"
+#include "kith/core/math.hpp"
 
 namespace kith {
 namespace {
@@ -281,7 +281,7 @@ Svg BoardSvg::path(MdpIndex m, const Trajectory& path, const std::string& color,
               {"stroke-width", svg_number(width)},
               {"stroke-linecap", "round"},
               {"stroke-dasharray", dashed ? "6 5" : "none"}});
-    const double angle = std::atan2(dy, dx) * 180.0 / std::numbers::pi;
+    const double angle = math::atan2(dy, dx) * 180.0 / std::numbers::pi;
     svg.add("path", {{"d", "M5 0L-4 -4.6V4.6Z"},
                      {"fill", color},
                      {"transform", fmt::format("translate({} {}) rotate({})", svg_number((from.x + to.x) / 2 + x),

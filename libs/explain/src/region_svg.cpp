@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kith/core/math.hpp"
 #include "kith/explain/wrapped.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 
@@ -72,19 +73,19 @@ class Sphere {
     for (int i = 0; i < kSteps; ++i) angles.push_back(2.0 * std::numbers::pi * i / kSteps - std::numbers::pi);
     for (const auto& ray : visible.generators()) {
       const auto corner = in_space(ray);
-      angles.push_back(std::atan2(b.dot(corner), a.dot(corner)));
+      angles.push_back(math::atan2(b.dot(corner), a.dot(corner)));
     }
     std::sort(angles.begin(), angles.end());
 
     std::string path;
     for (const double angle : angles) {
-      const Eigen::Vector3d toward = std::cos(angle) * a + std::sin(angle) * b;
+      const Eigen::Vector3d toward = math::cos(angle) * a + math::sin(angle) * b;
       double reach = std::numbers::pi;
       for (const auto& facet : visible.facets()) {
         const auto& n = facet.unit_normal();
-        reach = std::min(reach, std::atan2(n.dot(inside), -n.dot(toward)));
+        reach = std::min(reach, math::atan2(n.dot(inside), -n.dot(toward)));
       }
-      const auto point = seen(std::cos(reach) * inside + std::sin(reach) * toward);
+      const auto point = seen(math::cos(reach) * inside + math::sin(reach) * toward);
       path += fmt::format("{}{} {}", path.empty() ? "M" : "L", svg_number(point.x), svg_number(point.y));
     }
     svg_.add("path", {{"d", path + "Z"}, {"fill", color}});
@@ -101,7 +102,7 @@ class Sphere {
     constexpr int kSteps = 90;
     for (int i = 0; i <= kSteps; ++i) {
       const double angle = std::numbers::pi * i / kSteps;
-      const auto point = seen(std::cos(angle) * start + side * std::sin(angle) * middle);
+      const auto point = seen(math::cos(angle) * start + side * math::sin(angle) * middle);
       path += fmt::format("{}{} {}", path.empty() ? "M" : "L", svg_number(point.x), svg_number(point.y));
     }
     svg_.add("path", {{"d", path}, {"fill", "none"}, {"stroke", "#0b2f52"}, {"stroke-width", "1.4"}});

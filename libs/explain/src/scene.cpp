@@ -230,7 +230,7 @@ std::vector<double> other_weights(double own, bool more) {
   constexpr int kSteps = 10;
   std::vector<double> weights;
   for (int i = 1; i <= kSteps; ++i) {
-    const double change = (more ? 0.125 : -0.125) * std::exp2(i);
+    const double change = (more ? 0.125 : -0.125) * std::ldexp(1.0, i);
     weights.push_back(more && own < 0.0 ? own * (1.0 - static_cast<double>(i) / kSteps) : own + change);
   }
   return weights;

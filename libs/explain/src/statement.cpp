@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "kith/core/math.hpp"
 #include "kith/geometry/cone.hpp"
 
 namespace kith {
@@ -133,7 +135,7 @@ class Candidates {
       const double exact = scale * std::abs(static_cast<double>(normal_[k]));
       gap += own * std::abs(static_cast<double>(size) - exact);
       weight += own * exact;
-      candidate.length += std::log2(1.0 + static_cast<double>(size));
+      candidate.length += math::log(1.0 + static_cast<double>(size)) / std::numbers::ln2;
     }
     candidate.slack = weight > 0.0 ? gap / weight : 0.0;
     if (candidate.normal.is_zero() || candidate.slack > kWeakest) return;

@@ -9,6 +9,7 @@
 
 #include "exact.hpp"
 #include "guide_table.hpp"
+#include "kith/core/math.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 #include "nearest_point.hpp"
 #include "simplex_points.hpp"
@@ -28,22 +29,23 @@ double angle_between(const HalfSpace& first, const HalfSpace& second) {
       square += minor * minor;
     }
   }
-  return std::atan2(std::sqrt(square), -static_cast<double>(dot(a, b)));
+  return math::atan2(std::sqrt(square), -static_cast<double>(dot(a, b)));
 }
 
 // [vanoosterom1983]
 double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double content) {
-  return 2.0 * std::atan2(content, 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+  return 2.0 * math::atan2(content, 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
-double factorial(std::size_t n) { return std::tgamma(static_cast<double>(n) + 1.0); }
+double factorial(std::size_t n) { return n < 2 ? 1.0 : static_cast<double>(n) * factorial(n - 1); }
 
 }  // namespace
 
 double sphere_area(std::size_t dimension) {
   if (dimension == 0) throw std::invalid_argument{"sphere_area: there is no sphere in zero dimensions"};
-  const double half = 0.5 * static_cast<double>(dimension);
-  return 2.0 * std::pow(std::numbers::pi, half) / std::tgamma(half);
+  if (dimension == 1) return 2.0;
+  const double circle = 2.0 * std::numbers::pi;
+  return dimension == 2 ? circle : circle / static_cast<double>(dimension - 2) * sphere_area(dimension - 2);
 }
 
 SolidAngle Cone::measure() const {
@@ -70,11 +72,10 @@ double ConeSampler::closed_form_share() const {
 
 // Parts are chosen half in proportion to their likely areas, half to bounds of them, so that no weight is large.
 std::vector<double> ConeSampler::shares(std::size_t points) const {
-  const double power = 0.5 * static_cast<double>(rank_);
   double all_likely = 0.0;
   double all_most = 0.0;
-  const auto likely = [&](const Part& part) { return part.content * std::pow(part.typical, power); };
-  const auto most = [&](const Part& part) { return part.content * std::pow(part.peak, power); };
+  const auto likely = [&](const Part& part) { return part.content * detail::half_power(part.typical, rank_); };
+  const auto most = [&](const Part& part) { return part.content * detail::half_power(part.peak, rank_); };
   for (const Part& part : parts_) {
     all_likely += likely(part);
     all_most += most(part);
@@ -90,7 +91,7 @@ std::vector<double> ConeSampler::shares(std::size_t points) const {
     Direction x = Direction::Zero(static_cast<Eigen::Index>(rank_));
     for (std::size_t k = 0; k < rank_; ++k) x += lambda[k] * rays_.col(static_cast<Eigen::Index>(part.rays[k]));
     const double chance = (cumulative[i] - (i == 0 ? 0.0 : cumulative[i - 1])) / sum;
-    return part.content * std::pow(x.squaredNorm(), -power) / chance;
+    return part.content / (detail::half_power(x.squaredNorm(), rank_) * chance);
   };
   std::optional<detail::SimplexPoints> own;
   if (points > detail::kAreaPoints) own.emplace(rank_, detail::area_shifts(), points);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "exact.hpp"
+#include "kith/core/math.hpp"
 #include "kith/geometry/cone.hpp"
 
 namespace kith {
@@ -23,7 +24,7 @@ Eigen::Vector3d in_space(const IntegerVector& v) {
 // tangent are exact integers before they are rounded, so thin lunes keep their digits.
 double lune_angle(const HalfSpace& first, const HalfSpace& second) {
   const Eigen::Vector3d edge = in_space(detail::cross_of_normals(first, second));
-  return std::atan2(edge.norm(), -static_cast<double>(dot(first.normal(), second.normal())));
+  return math::atan2(edge.norm(), -static_cast<double>(dot(first.normal(), second.normal())));
 }
 
 // A triangle of the fan around the first ray of a polygon: corners at unit length, and its area.
@@ -60,7 +61,7 @@ FanTriangle fan_triangle(std::span<const HalfSpace> facets, std::span<const Inte
   const double numerator = triple_product(facets, rays, i) / lengths;
   const double denominator =
       1.0 + triangle.apex.dot(triangle.from) + triangle.from.dot(triangle.to) + triangle.to.dot(triangle.apex);
-  triangle.area = 2.0 * std::atan2(numerator, denominator);
+  triangle.area = 2.0 * math::atan2(numerator, denominator);
   return triangle;
 }
 
@@ -68,7 +69,7 @@ FanTriangle fan_triangle(std::span<const HalfSpace> facets, std::span<const Inte
 Eigen::Vector3d turned(const Eigen::Vector3d& axis, const Eigen::Vector3d& zero, const Eigen::Vector3d& quarter,
                        double z, double angle) {
   const double radius = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
-  return radius * (std::cos(angle) * zero + std::sin(angle) * quarter) + z * axis;
+  return radius * (math::cos(angle) * zero + math::sin(angle) * quarter) + z * axis;
 }
 
 // Where the arc from -> to must be met by an arc through the apex that cuts off
@@ -80,8 +81,8 @@ Eigen::Vector3d turned(const Eigen::Vector3d& axis, const Eigen::Vector3d& zero,
 Eigen::Vector3d cut_off(const FanTriangle& t, double part) {
   const Eigen::Vector3d chord = t.to - t.from;
   const Eigen::Vector3d d = (chord - t.from * t.from.dot(chord)).normalized();
-  const double sine = std::sin(part / 2.0);
-  const double cosine = std::cos(part / 2.0);
+  const double sine = math::sin(part / 2.0);
+  const double cosine = math::cos(part / 2.0);
   const double determinant = t.apex.dot(t.from.cross(d));
   const double y = sine * (1.0 + t.apex.dot(t.from));
   const double x = cosine * determinant - sine * t.apex.dot(d);

@@ -13,6 +13,7 @@
 
 #include "guide_table.hpp"
 #include "kith/core/assert.hpp"
+#include "kith/core/math.hpp"
 #include "kith/geometry/cover.hpp"
 #include "nearest_point.hpp"
 #include "simplex_points.hpp"
@@ -39,15 +40,8 @@ Eigen::MatrixXd columns(std::span<const IntegerVector> vectors, std::size_t dime
   return result;
 }
 
-// How far half_power may be from the power, relative to it, and much more.
+// How far two chances of acceptance may be from one another, relative to them, because of rounding, and much more.
 constexpr double kRoughly = 1e-12;
-
-// x^(n/2)
-double half_power(double x, std::size_t n) {
-  double result = n % 2 == 0 ? 1.0 : std::sqrt(x);
-  for (std::size_t k = 0; k < n / 2; ++k) result *= x;
-  return result;
-}
 
 // The sum of n rays, columns of a matrix of n rows, each times its lambda; n = lambda.size() is 1 to 8.
 template <std::size_t n>
@@ -110,7 +104,7 @@ void ConeSampler::make_arc() {
 }
 
 Direction ConeSampler::arc_point(double t) const {
-  return std::cos(t * arc_) * axes_.col(0) + std::sin(t * arc_) * axes_.col(1);
+  return math::cos(t * arc_) * axes_.col(0) + math::sin(t * arc_) * axes_.col(1);
 }
 
 void ConeSampler::make_parts() {
@@ -138,10 +132,9 @@ void ConeSampler::make_parts() {
   }
   halve_wide_parts();
   double sum = 0.0;
-  const double power = 0.5 * static_cast<double>(dimension());
   for (const Part& part : parts_) {
     // Coordinates along the lines add to the square of the smallest length as perpendicular rays do.
-    sum += part.content * std::pow(part.peak + static_cast<double>(num_lines), power);
+    sum += part.content * detail::half_power(part.peak + static_cast<double>(num_lines), dimension());
     envelope_.push_back(sum);
   }
   KITH_ASSERT(std::isfinite(sum));
@@ -157,9 +150,8 @@ void ConeSampler::measure(Part& part) const {
 }
 
 void ConeSampler::halve_wide_parts() {
-  const double power = 0.5 * static_cast<double>(rank_);
-  const auto most = [&](const Part& part) { return part.content * std::pow(part.peak, power); };
-  const auto likely = [&](const Part& part) { return part.content * std::pow(part.typical, power); };
+  const auto most = [&](const Part& part) { return part.content * detail::half_power(part.peak, rank_); };
+  const auto likely = [&](const Part& part) { return part.content * detail::half_power(part.typical, rank_); };
   std::priority_queue<std::pair<double, std::size_t>> widest;
   double sum_most = 0.0;
   double sum_likely = 0.0;
@@ -236,7 +228,7 @@ ConeSampler::Proposal ConeSampler::propose(double which, std::span<const double>
   }
   const double square = point.squaredNorm();
   const double peak = part.peak + static_cast<double>(num_lines);
-  const double acceptance = std::pow(1.0 / (peak * square), 0.5 * static_cast<double>(dimension()));
+  const double acceptance = detail::half_power(1.0 / (peak * square), dimension());
   return {point / std::sqrt(square), acceptance};
 }
 
@@ -265,11 +257,10 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
     return points;
   }
 
-  // Most proposals are rejected, so the power and, where there are lines, the point are computed only where a rough
-  // power cannot tell.
+  // Most proposals are rejected, so where there are lines the point is computed only where its squared length, which
+  // is rounded otherwise here, leaves a chance.
   const detail::GuideTable guide{envelope_};
   const bool is_pointed = rank_ == dimension();
-  const double power = 0.5 * static_cast<double>(dimension());
   Eigen::Index found = 0;
   Direction beside(static_cast<Eigen::Index>(rank_));  // the lines, in the frame
   const auto take = [&](double which, std::span<const double> lambda, double last) {
@@ -278,13 +269,12 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
     double square = beside.squaredNorm();
     for (const double along : lambda.subspan(rank_)) square += along * along;
     const double likely = 1.0 / ((part.peak + static_cast<double>(dimension() - rank_)) * square);
-    const double rough = half_power(likely, dimension());
-    const bool is_clear = std::abs(last - rough) > kRoughly * rough;
-    if (is_clear && last >= rough) return;
+    const double acceptance = detail::half_power(likely, dimension());
     if (is_pointed) {
-      if (last < (is_clear ? rough : std::pow(likely, power))) points.col(found++) = beside / std::sqrt(square);
+      if (last < acceptance) points.col(found++) = beside / std::sqrt(square);
       return;
     }
+    if (last - acceptance > kRoughly * acceptance) return;
     const Proposal proposal = propose(which, lambda);
     if (last < proposal.acceptance) points.col(found++) = proposal.point;
   };

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "kith/core/math.hpp"
+
 namespace kith::detail {
 
 // At most eight by eight, in place.
@@ -17,6 +19,13 @@ using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
   for (std::size_t k = 0; k < count; ++k) {
     result.col(static_cast<Eigen::Index>(k)) = all.col(static_cast<Eigen::Index>(which[k]));
   }
+  return result;
+}
+
+// x^(n/2)
+[[nodiscard]] inline double half_power(double x, std::size_t n) {
+  double result = n % 2 == 0 ? 1.0 : std::sqrt(x);
+  for (std::size_t k = 0; k < n / 2; ++k) result *= x;
   return result;
 }
 
@@ -45,7 +54,7 @@ class SimplexMap {
     if (degree == 1) return x;
     if (degree == 2) return std::sqrt(x);
     if (degree == 4) return std::sqrt(std::sqrt(x));
-    return std::pow(x, 1.0 / static_cast<double>(degree));
+    return math::pow(x, 1.0 / static_cast<double>(degree));
   }
 
   std::span<const double> uniforms_;

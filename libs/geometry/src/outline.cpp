@@ -2,8 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "kith/core/math.hpp"
 
 namespace kith {
 namespace {
@@ -17,7 +18,7 @@ void add_arc(Points& points, const Eigen::Vector3d& begin, const Eigen::Vector3d
   const Eigen::Vector3d side = axis.cross(begin);
   for (std::size_t i = 0; i < n; ++i) {
     const double turn = angle * static_cast<double>(i) / static_cast<double>(n);
-    points.push_back(std::cos(turn) * begin + std::sin(turn) * side);
+    points.push_back(math::cos(turn) * begin + math::sin(turn) * side);
   }
 }
 

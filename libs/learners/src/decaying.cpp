@@ -1,8 +1,9 @@
 #include <array>
-#include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
+#include "kith/core/math.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {
@@ -19,7 +20,7 @@ class DecayingLearner final : public LikeBayesian {
   [[nodiscard]] std::unique_ptr<Learner> clone() const override { return std::make_unique<DecayingLearner>(*this); }
 
   void let_time_pass(double minutes, std::size_t period) override {
-    blend(*start_, 1.0 - std::exp2(-minutes / half_life_), random_.split("fades").split(period));
+    blend(*start_, 1.0 - math::exp(-std::numbers::ln2 * minutes / half_life_), random_.split("fades").split(period));
   }
 
  private:

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "kith/bec/transfer.hpp"
 #include "kith/core/distributions.hpp"
+#include "kith/core/math.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {
@@ -77,7 +77,7 @@ class ImitatingLearner final : public LikeBayesian {
       values.push_back(static_cast<double>(atlas.domain().dissimilarity(atlas.id(start), atlas.id(test))));
     }
     const double least = *std::min_element(values.begin(), values.end());
-    for (double& value : values) value = std::exp((least - value) / temperature_);
+    for (double& value : values) value = math::exp((least - value) / temperature_);
     return values;
   }
 

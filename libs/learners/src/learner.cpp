@@ -1,7 +1,8 @@
 #include "kith/learners/learner.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "kith/core/math.hpp"
 
 namespace kith {
 
@@ -11,7 +12,7 @@ double log_likelihood(const Learner& learner, const AnswerEvidence& evidence, do
   if (evidence.empty()) return 0.0;
   const auto share = learner.likelihood(evidence);
   if (!share) return 0.0;
-  return std::log(std::max((1.0 - slip) * *share + slip * evidence.chance(), 1e-300));
+  return math::log(std::max((1.0 - slip) * *share + slip * evidence.chance(), 1e-300));
 }
 
 std::vector<HalfSpace> conveyed_to(Behaviours& behaviours, Regions& regions, std::span<const StartIndex> demonstrations,

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "kith/core/distributions.hpp"
+#include "kith/core/math.hpp"
 #include "like_bayesian.hpp"
 
 namespace kith {
@@ -79,7 +79,7 @@ class NoisyRationalLearner final : public LikeBayesian {
     }
     const double top = *std::max_element(shares.begin(), shares.end());
     double sum = 0.0;
-    for (double& share : shares) sum += share = std::exp(share - top);
+    for (double& share : shares) sum += share = math::exp(share - top);
     for (double& share : shares) share /= sum;
     return shares;
   }

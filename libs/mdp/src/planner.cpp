@@ -1,11 +1,11 @@
 #include "kith/mdp/planner.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "checks.hpp"
 #include "kith/core/assert.hpp"
+#include "kith/core/math.hpp"
 #include "longest_path.hpp"
 
 namespace kith {
@@ -122,7 +122,7 @@ std::vector<double> path_features(const Mdp& mdp, const Trajectory& path) {
   std::vector<double> sum(mdp.num_features(), 0.0);
   double share = 1.0;  // discount^t, of a cycle for all rounds
   for (std::size_t t = 0; t < path.actions.size(); ++t) {
-    if (t == path.repeats_from) share /= 1.0 - std::pow(mdp.discount(), static_cast<double>(path.actions.size() - t));
+    if (t == path.repeats_from) share /= 1.0 - math::pow(mdp.discount(), static_cast<double>(path.actions.size() - t));
     require(path.states[t].value() < mdp.num_states(), kName, "nothing follows a terminal state");
     const auto choices = mdp.choices(path.states[t]);
     const auto choice = std::ranges::find(choices, path.actions[t], &Choice::action);

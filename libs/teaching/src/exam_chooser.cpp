@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "kith/core/math.hpp"
 
 namespace kith {
 namespace {
 
-double entropy_term(double p) { return p > 0.0 ? -p * std::log(p) : 0.0; }
+double entropy_term(double p) { return p > 0.0 ? -p * math::log(p) : 0.0; }
 
 // -sum p log p of parts that sum to `all`, times all once they are divided by it.
 template <typename Parts>

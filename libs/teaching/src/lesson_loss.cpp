@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "kith/core/math.hpp"
 #include "kith/core/vector_clones.hpp"
 #include "kith/teaching/exam_worth.hpp"
 
@@ -105,8 +106,8 @@ const LessonLoss::Factors& LessonLoss::factors(ConstraintIndex c) {
   for (const Part& part : parts_) {
     for (std::size_t i = part.begin; i < part.end; ++i) {
       if (t[i] >= 0.0) continue;
-      known.shown[i] = std::exp(part.shown.log_relative(t[i]));
-      known.feedback[i] = std::exp(part.feedback.log_relative(t[i]));
+      known.shown[i] = math::exp(part.shown.log_relative(t[i]));
+      known.feedback[i] = math::exp(part.feedback.log_relative(t[i]));
     }
   }
   return known;
@@ -130,7 +131,7 @@ double LessonLoss::of(const Product& product, double of_imitating) const {
     }
     if (!(mass > 0.0)) continue;
     const double q = part.imitation.probability;
-    losses[part.member] += part.weight * std::log((1.0 - q) * wrong / mass + q * of_imitating + floor_);
+    losses[part.member] += part.weight * math::log((1.0 - q) * wrong / mass + q * of_imitating + floor_);
     weights[part.member] += part.weight;
   }
   double sum = 0.0, worst = -std::numeric_limits<double>::infinity();

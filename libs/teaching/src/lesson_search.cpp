@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "kith/core/math.hpp"
 #include "kith/teaching/imitation_table.hpp"
 #include "test_order.hpp"
 #include "unit_of.hpp"
@@ -51,7 +52,7 @@ class LossOfImitation {
   void add(StartIndex demonstration) {
     const auto row = table_.of(demonstration);
     for (std::size_t s = 0; s < row.size(); ++s) {
-      const double similarity = std::exp(-row[s].distance / temperature_);
+      const double similarity = math::exp(-row[s].distance / temperature_);
       weight_[s] += similarity;
       wrong_[s] += similarity * wrong(row[s].grade);
     }
@@ -90,7 +91,7 @@ class LossOfImitation {
     const auto row = table_.of(demonstration);
     double sum = 0.0;
     for (std::size_t s = 0; s < row.size(); ++s) {
-      const double similarity = std::exp(-row[s].distance / temperature_);
+      const double similarity = math::exp(-row[s].distance / temperature_);
       const double weight = weight_[s] + similarity;
       if (weight > 0.0) sum += (wrong_[s] + similarity * wrong(row[s].grade)) / weight;
     }

@@ -1,13 +1,13 @@
 // Which lesson comes next, and what it teaches.
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "imagined_people.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/math.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/session.hpp"
 #include "kith/teaching/test_selection.hpp"
@@ -171,7 +171,7 @@ void Session::describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) c
   lesson.taught = cache.constraints().half_spaces(region.minimal.without(atlas_->prior()));
   lesson.area_sr = region.area_sr;
   lesson.running_area_sr = cache.regions().of(cache.numbers_of(unit.taught_region)).area_sr;
-  lesson.gain = std::log(cache.regions().of(cache.numbers_of(taught_before_)).area_sr / lesson.running_area_sr);
+  lesson.gain = math::log(cache.regions().of(cache.numbers_of(taught_before_)).area_sr / lesson.running_area_sr);
 }
 
 // What the tests of a lesson ask about: what it teaches and, where whole components are taught, also the facets of the
