@@ -65,9 +65,10 @@ endif()
 add_library(kith_compiled_fast INTERFACE)
 target_compile_options(kith_compiled_fast INTERFACE "$<$<CONFIG:Release>:-O0;-U_FORTIFY_SOURCE>")
 
-# Eigen with one layout and one way of allocating whatever -march is, in kith and in every program that links it: what
-# suits the widest vectors on the heap, what the baseline has in place (see kith/geometry/eigen.hpp).
+# Eigen with one layout, one way of allocating and one order of adding whatever -march is, in kith and in every program
+# that links it (see kith/geometry/eigen.hpp).
 add_library(kith_eigen INTERFACE)
 set_target_properties(kith_eigen PROPERTIES EXPORT_NAME eigen)
 target_link_libraries(kith_eigen INTERFACE Eigen3::Eigen)
-target_compile_definitions(kith_eigen INTERFACE EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+target_compile_definitions(kith_eigen INTERFACE
+  EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
