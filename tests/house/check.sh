@@ -38,14 +38,25 @@ check_pragma() {  # every header begins with #pragma once
     print FILENAME ": the first line is not " q "#pragma once" q }' 2>&1 | none
 }
 
-# Lessons in files run the lower layers with a library that has no std::ranges: each algorithm is in portability.hpp.
-check_ranges() {
-  local own=apps/lesson/src/portability.hpp layer
+# What lessons in files are made of.
+lesson_sources() {
+  local layer
   sed -n 's/^set(layers \(.*\))$/\1/p' apps/lesson/CMakeLists.txt | tr ' ' '\n' | while IFS= read -r layer; do
-    files "libs/$layer/include/*" "libs/$layer/src/*" | search -noE 'std::ranges::[a-z_]+\('
-  done | while IFS= read -r use; do
+    files "libs/$layer/include/*" "libs/$layer/src/*"
+  done
+}
+
+# Its library has no std::ranges: each algorithm is in portability.hpp.
+check_ranges() {
+  local own=apps/lesson/src/portability.hpp
+  lesson_sources | search -noE 'std::ranges::[a-z_]+\(' | while IFS= read -r use; do
     grep -qF " ${use##*::}" "$own" || echo "${use%(}: not in $own"
   done | none
+}
+
+check_math() {  # results have the same bits everywhere: by kith/core/math.hpp, as libraries of C round differently
+  lesson_sources | search -nE 'std::(a?(sin|cos|tan)h?|atan2|expm?[12]?|log(2|10|1p)?|pow|hypot|cbrt|[lt]gamma|erf|fma)\(' |
+    none
 }
 
 # A layer needs only layers that come before it in libs/CMakeLists.txt, and the map of the project has them all in order.

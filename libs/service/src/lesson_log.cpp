@@ -68,8 +68,7 @@ LessonLog parsed_log(std::string_view text, const std::string& name) {
   }
 }
 
-// The lesson that this kith chooses where the log has one. A page's mathematical functions round otherwise than ours,
-// so beliefs may differ in their last digits, and lessons are compared by what they show and ask.
+// The lesson that this kith chooses where the log has one. They are compared by what they show and ask.
 TaughtLesson same_lesson(const LessonLog& log, const RoomEvent& event, const Room& room, TeachingCache& cache,
                          const std::string& name) {
   const auto task = room.teaching();
