@@ -21,7 +21,7 @@ namespace kith {
 // old one stays until the new one is complete; whatever ends this, one of the two is there.
 // @param study     the extended one.
 // @param observer  is told, by name, what has been done.
-// @pre extends(earlier.inputs, identity.inputs), and both are of the same program, arithmetic and the whole study.
+// @pre extends(earlier.inputs, identity.inputs), and both are of the same program and the whole study.
 void extend_journal(const std::filesystem::path& path, const JournalIdentity& earlier, const JournalIdentity& identity,
                     const Study& study, const std::function<void(const std::string& instant)>& observer);
 

@@ -26,8 +26,7 @@ double now() { return std::chrono::duration<double>(std::chrono::system_clock::n
 
 std::string JournalIdentity::key() const {
   Sha256 hash;
-  for (const auto& part : {std::string{"kith.record/2"}, inputs.digest(), program, arithmetic})
-    hash.update(part + "\n");
+  for (const auto& part : {std::string{"kith.record/2"}, inputs.digest(), program}) hash.update(part + "\n");
   return std::move(hash).digest();
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSchema = "kith.journal/2";
+constexpr const char* kSchema = "kith.journal/3";
 
 constexpr const char* kTables =
     "PRAGMA application_id = 0x6B697468;"  // "kith"
@@ -55,7 +55,6 @@ std::vector<std::pair<std::string, std::string>> meta_of(const JournalIdentity& 
   std::vector<std::pair<std::string, std::string>> meta{{"schema", kSchema},
                                                         {"run", identity.inputs.digest()},
                                                         {"program", identity.program},
-                                                        {"arithmetic", identity.arithmetic},
                                                         {"study", identity.inputs.study},
                                                         {"domain", identity.inputs.domain},
                                                         {"files", text_of(identity.inputs.files)},
@@ -198,8 +197,7 @@ std::optional<JournalIdentity> read_identity(Database& database) try {
   JournalIdentity identity{{value_of("study"), value_of("domain"), files_from(value_of("files"))},
                            value_of("program"),
                            number_of(value_of("teams")),
-                           {number_of(value_of("shard")), number_of(value_of("shards"))},
-                           value_of("arithmetic")};
+                           {number_of(value_of("shard")), number_of(value_of("shards"))}};
   std::vector<std::string> wrong;
   for (const auto& [key, value] : meta_of(identity)) {
     if (value_of(key) != value) wrong.push_back(key);

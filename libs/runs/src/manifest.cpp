@@ -8,7 +8,6 @@
 #include "kith/files/csv_writer.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/runs/arithmetic.hpp"
 
 namespace kith {
 namespace {
@@ -56,8 +55,6 @@ std::string manifest(const Study& study, const RunContent& content, const RunFac
                 {"compiler", facts.compiler},
                 {"build_type", facts.build_type},
                 {"flags", facts.flags},
-                {"math_library", math_library()},
-                {"arithmetic", arithmetic_fingerprint()},
                 {"processor", processor_name()},
                 {"system", system_name()},
                 {"inputs", {{"study.toml", sha256(inputs.study)}, {"domain.toml", sha256(inputs.domain)}}},

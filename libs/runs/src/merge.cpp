@@ -8,7 +8,6 @@
 #include "kith/files/generation.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sqlite.hpp"
-#include "kith/runs/arithmetic.hpp"
 #include "team_list.hpp"
 
 namespace kith {
@@ -54,12 +53,6 @@ void compare(const fs::path& folder, const JournalIdentity& one, const JournalId
   if (one.program != program) {
     complaints.add("E0632", folder, "this shard was run by kith " + one.program + ", and this is " + program,
                    "run and merge all shards with the same program; others may give different results");
-  }
-  if (one.arithmetic != first.arithmetic || one.arithmetic != arithmetic_fingerprint()) {
-    complaints.add("E0639", folder,
-                   "this shard was run on a machine whose mathematical library rounds differently (" + one.arithmetic +
-                       "; here " + arithmetic_fingerprint() + ")",
-                   "run and merge all shards on machines of the same kind");
   }
   if (one.shard.count != first.shard.count) {
     complaints.add(

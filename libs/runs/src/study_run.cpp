@@ -10,7 +10,6 @@
 #include "kith/core/error.hpp"
 #include "kith/core/stream.hpp"
 #include "kith/files/bytes.hpp"
-#include "kith/runs/arithmetic.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "team_list.hpp"
 
@@ -89,8 +88,7 @@ struct StudyRun::State {
   State(fs::path where, StudyReading what, StudyRunOptions how)
       : path{std::move(where)}, reading{std::move(what)}, options{std::move(how)} {
     ranks = options.ranks == nullptr ? &alone : options.ranks;
-    identity = {freeze(reading), options.program, kith::num_teams(*reading.study), options.shard,
-                arithmetic_fingerprint()};
+    identity = {freeze(reading), options.program, kith::num_teams(*reading.study), options.shard};
     KITH_ASSERT(identity.teams < kNoMoreWork);
   }
 
@@ -178,16 +176,12 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
   }
 
   const auto progress = Journal::read(path / kJournalFile).progress();
-  const bool same_program = found.program == identity.program;
-  const auto by = same_program ? "on a machine whose mathematical library rounds differently (" + found.arithmetic +
-                                     ", here " + identity.arithmetic + ")"
-                               : "by kith " + found.program + ", and this is " + identity.program;
+  const auto by = "by kith " + found.program + ", and this is " + identity.program;
   if (progress.done < progress.total) {
     throw Error{ErrorKind::kUsage,
                 path.string() + " holds " + std::to_string(progress.done) + " of " + std::to_string(progress.total) +
                     " teams taught " + by + ", so results may differ",
-                Advice{std::string{"finish the run "} + (same_program ? "on a machine like that" : "with that program"),
-                       Remedy::kStartOver}};
+                Advice{"finish the run with that program", Remedy::kStartOver}};
   }
   notes.push_back("the results in " + path.string() + " were made " + by + "; all teams are rerun");
 }

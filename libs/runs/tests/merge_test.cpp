@@ -145,14 +145,6 @@ TEST_F(ShardTest, ReplaceTheInputsAndTablesOfWhatWasThere) {
   EXPECT_EQ(kind_of_failure([&] { (void)PublishedRun::open(scratch_.path() / "1"); }), ErrorKind::kInvalidInput);
 }
 
-TEST_F(ShardTest, AreRefusedFromAMachineThatRoundsDifferently) {
-  const std::vector folders{shard("1", {1, 2}), shard("2", {2, 2})};
-  auto elsewhere = *Journal::identify(folders[1] / kJournalFile);
-  elsewhere.arithmetic = "0123456789abcdef";
-  (void)Journal::create(folders[1] / kJournalFile, elsewhere);
-  expect_refused(folders, "E0639");
-}
-
 TEST_F(ShardTest, AreRefusedWithTheManifestOfAnotherStudy) {
   const std::vector folders{shard("1", {1, 2}), shard("2", {2, 2})};
   (void)shard("other", {2, 2}, "kith test", {"seed=2"});

@@ -8,7 +8,6 @@
 #include "kith/geometry/cone.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 #include "kith/geometry/cover.hpp"
-#include "kith/runs/arithmetic.hpp"
 
 // Prints numbers that the libraries compute, exactly. All programs that link the same libraries must print the same,
 // whatever instruction set they are compiled for: what is made here is used and freed there, and the other way round.
@@ -58,7 +57,6 @@ int main() {
   print("weights", domain.weights().unit);
   print_beliefs(*region);
   print_matrices(*region);
-  std::printf("arithmetic: %s\n", kith::arithmetic_fingerprint().c_str());
   const bool right = std::abs(region->solid_angle() - 0.0260947) < 1e-7 && domain.num_starts() == 9312;
   return right ? 0 : 1;
 }

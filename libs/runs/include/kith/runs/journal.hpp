@@ -28,11 +28,10 @@ struct JournalIdentity {
   std::string program;    ///< Version and commit: another program may give other bytes.
   std::size_t teams = 0;  ///< Of the whole study, at most kMaxTeams.
   Shard shard;
-  std::string arithmetic;  ///< See arithmetic_fingerprint(): another mathematical library may give other bytes.
   friend bool operator==(const JournalIdentity&, const JournalIdentity&) = default;
 
-  /// What the records of its teams are sealed with (team_codec.hpp): 32 bytes that tell the inputs, the program and the
-  /// arithmetic. All shards have the same.
+  /// What the records of its teams are sealed with (team_codec.hpp): 32 bytes that tell the inputs and the program. All
+  /// shards have the same.
   [[nodiscard]] std::string key() const;
 };
 

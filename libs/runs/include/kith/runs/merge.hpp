@@ -20,9 +20,8 @@ struct Shards {
 /// @param allow_partial  whether missing, unfinished and damaged parts are listed instead of refused.
 /// @throws kith::Error with everything that stands in the way. kInvalidInput: a folder without a journal (E0630),
 /// shards of different studies (E0631), by another program (E0632), of different numbers of shards (E0633), the same
-/// shard twice (E0634), run on machines that round differently (E0639). kInfeasible: a shard is missing (E0635), is not
-/// finished (E0636). kMismatch: damaged records or a damaged journal (E0637), a manifest that is not of the same study
-/// as the journal beside it (E0638).
+/// shard twice (E0634). kInfeasible: a shard is missing (E0635), is not finished (E0636). kMismatch: damaged records or
+/// a damaged journal (E0637), a manifest that is not of the same study as the journal beside it (E0638).
 [[nodiscard]] Shards open_shards(std::span<const std::filesystem::path> folders, const std::string& program,
                                  bool allow_partial = false);
 
