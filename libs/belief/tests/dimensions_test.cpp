@@ -1,7 +1,9 @@
 // Beliefs on the sphere of other than three dimensions.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <set>
 
@@ -211,6 +213,31 @@ TEST(Likelihood, OfAnotherDimensionIsRefused) {
       belief.observe(std::vector{HalfSpace{IntegerVector{1, 0, 0, 0}}}, HalfSpaceLikelihood{0.8}, RandomStream{1}),
       std::invalid_argument);
   EXPECT_THROW(HalfSpaceLikelihood(0.8, LikelihoodForm::kDiscontinuous, 9), std::invalid_argument);
+}
+
+// A digest of the bits of a belief that was resampled and moved, in which one rounding more or less would spread.
+std::uint64_t bits_after_updates(std::size_t d) {
+  ParticleBelief belief{lower_half(d), {.particles = 250}};
+  RandomStream random{d};
+  for (int update = 0; update < 40; ++update) {
+    const auto axis = uniform_index(d - 1, random);
+    const auto entry = static_cast<std::int64_t>(uniform_index(9, random)) - 4;
+    const HalfSpaceLikelihood likelihood{0.55 + 0.4 * uniform01(random), LikelihoodForm::kDiscontinuous, d};
+    belief.observe(std::vector{some_half_space(d, axis, entry, -5)}, likelihood, random);
+  }
+  std::uint64_t sum = std::bit_cast<std::uint64_t>(belief.spread());
+  for (std::size_t i = 0; i < belief.size(); ++i) {
+    for (std::size_t k = 0; k < d; ++k)
+      sum = std::rotl(sum, 5) * 0x9E3779B97F4A7C15u ^ std::bit_cast<std::uint64_t>(belief.axis(k)[i]);
+  }
+  return sum;
+}
+
+TEST(Dimensions, HaveTheSameBitsEverywhere) {
+  EXPECT_EQ(bits_after_updates(2), 0x19D8F09B473B2CB1u);
+  EXPECT_EQ(bits_after_updates(3), 0x6884947CC1C7AE85u);
+  EXPECT_EQ(bits_after_updates(4), 0x393044DCDB324BF7u);
+  EXPECT_EQ(bits_after_updates(6), 0x7889AA26159A93D2u);
 }
 
 }  // namespace
