@@ -5,6 +5,7 @@
 
 #include "arrays.hpp"
 #include "kith/core/error.hpp"
+#include "kith/core/text.hpp"
 #include "kith/files/codebook.hpp"
 #include "kith/files/csv_reader.hpp"
 #include "kith/files/published_run.hpp"
@@ -65,14 +66,14 @@ Table read_table(const std::string& folder, const std::string& name) {
   const auto book = run.folder() / "tables" / "codebook.json";
   Table table;
   bool found = false;
-  std::string names;
+  std::vector<std::string> names;
   for (auto& one : read_codebook(run.read("tables/codebook.json"), book.string())) {
-    names += (names.empty() ? "" : ", ") + one.file.substr(0, one.file.rfind('.'));
+    names.push_back(one.file.substr(0, one.file.rfind('.')));
     if (one.file != name + ".csv") continue;
     table.description = std::move(one);
     found = true;
   }
-  if (!found) throw Error{ErrorKind::kUsage, "the run has no table '" + name + "', only " + names};
+  if (!found) throw Error{ErrorKind::kUsage, "the run has no table '" + name + "', only " + joined(names)};
   for (const auto& column : table.description.columns) {
     table.columns.push_back(std::make_shared<Cells>());
     table.columns.back()->column = column;

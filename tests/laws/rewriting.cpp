@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "kith/core/distributions.hpp"
+#include "kith/core/text.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/document.hpp"
 
@@ -371,9 +372,7 @@ std::optional<Rewriting> with_a_world_twice(const DomainText& domain) {
       if (first.empty()) first = cells[column];
       if (cells[column] != first) continue;
       cells[column] = "again";
-      std::string line;
-      for (const auto& cell : cells) line += (line.empty() ? "" : ",") + cell;
-      file.text += line + "\n";
+      file.text += joined(cells, ",") + "\n";
     }
   }
   return result;

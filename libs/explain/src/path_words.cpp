@@ -41,15 +41,12 @@ std::string world_text(const Domain& domain, MdpIndex m) {
 }
 
 std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions) {
-  std::string text;
-  for (std::size_t i = 0; i < actions.size();) {
-    std::size_t n = 1;
+  std::vector<std::string> runs;
+  for (std::size_t i = 0, n = 1; i < actions.size(); i += n, n = 1) {
     while (i + n < actions.size() && actions[i + n] == actions[i]) ++n;
-    text += (text.empty() ? "" : ", ") + domain.action_names()[actions[i].value()];
-    if (n > 1) text += " x" + std::to_string(n);
-    i += n;
+    runs.push_back(domain.action_names()[actions[i].value()] + (n > 1 ? " x" + std::to_string(n) : ""));
   }
-  return text;
+  return joined(runs);
 }
 
 std::string actions_text(const Domain& domain, MdpIndex world, const Trajectory& path) {

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <utility>
 
+#include "kith/core/text.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -222,11 +224,7 @@ std::vector<std::string> texts_of(const std::vector<Token>& tokens) {
   return texts;
 }
 
-std::string phrase(const std::vector<Token>& tokens) {
-  std::string text;
-  for (const auto& token : tokens) text += (text.empty() ? "" : " ") + token.text;
-  return text;
-}
+std::string phrase(const std::vector<Token>& tokens) { return joined(tokens, " ", &Token::text); }
 
 Place place_of(const std::vector<Token>& tokens) {
   const auto &first = tokens.front().place, &last = tokens.back().place;

@@ -366,12 +366,11 @@ std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVec
 }
 
 std::string counts_text(const Domain& domain, const IntegerVector& counts) {
-  std::string text;
+  std::vector<std::string> parts;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    if (counts[k] == 0) continue;
-    text += (text.empty() ? "" : ", ") + domain.feature_names()[k] + " " + count_text(counts[k], domain.count_scale());
+    if (counts[k] != 0) parts.push_back(domain.feature_names()[k] + " " + count_text(counts[k], domain.count_scale()));
   }
-  return text.empty() ? "nothing" : text;
+  return parts.empty() ? "nothing" : joined(parts);
 }
 
 double return_of(const Domain& domain, const IntegerVector& counts) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "kith/core/text.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -114,12 +116,11 @@ std::vector<Reference> parse_bibtex(std::string_view text) {
 
 std::string reference_text(const Reference& reference) {
   const auto authors = authors_of(field(reference, "author"));
-  std::string text;
-  for (std::size_t i = 0; i < authors.size(); ++i) {
-    if (i > 0) text += i + 1 == authors.size() ? ", & " : ", ";
-    text += authors[i].family + (authors[i].initials.empty() ? "" : ", " + authors[i].initials);
-  }
-  text += " (" + field(reference, "year") + "). " + field(reference, "title") + ".";
+  const auto name = [](const auto& author) {
+    return author.family + (author.initials.empty() ? "" : ", " + author.initials);
+  };
+  auto text =
+      joined(authors, ", ", name, ", & ") + " (" + field(reference, "year") + "). " + field(reference, "title") + ".";
   const auto where = venue(reference);
   if (!where.empty()) text += " " + where + ".";
   return text;

@@ -3,24 +3,22 @@
 #include <algorithm>
 #include <cctype>
 
+#include "kith/core/text.hpp"
+
 namespace kith::detail {
 namespace {
 
 std::string settings_text(const std::vector<FactorSetting>& settings) {
-  std::string text;
-  for (const auto& setting : settings) text += (text.empty() ? "" : ", ") + setting.key + "=" + setting.value;
-  return text;
+  return joined(settings, ", ", [](const FactorSetting& setting) { return setting.key + "=" + setting.value; });
 }
 
 // "process noise 0.02, particles 500": for people who see what else varies.
 std::string settings_words(const std::vector<FactorSetting>& settings) {
-  std::string text;
-  for (const auto& setting : settings) {
+  return joined(settings, ", ", [](const FactorSetting& setting) {
     auto key = setting.key.substr(setting.key.rfind('.') + 1);
     std::replace(key.begin(), key.end(), '_', ' ');
-    text += (text.empty() ? "" : ", ") + key + " " + setting.value;
-  }
-  return text;
+    return key + " " + setting.value;
+  });
 }
 
 ReportDesign::Series series_of(const RunFiles& run, const TeamAddress& address) {

@@ -123,10 +123,7 @@ std::string headline(const FirstScreen& screen) {
                     std::to_string(num_completed(screen)) + " of " + std::to_string(screen.data.teams.size()) +
                     (screen.by_tests ? " passed all tests" : " were taught to the end"));
   }
-
-  std::string text;
-  for (const auto& part : parts) text += (text.empty() ? "" : "; ") + part;
-  return capitalised(text);
+  return capitalised(joined(parts, "; "));
 }
 
 Json answers(const FirstScreen& screen) {
@@ -212,13 +209,11 @@ Json meanings(const ReportDesign& design, const std::map<char, std::string>& typ
   for (const auto& cell : design.cells) {
     std::map<char, std::size_t> counts;
     for (const char letter : cell.composition) ++counts[letter];
-    std::string text;
-    for (const auto& [letter, count] : counts) {
-      const auto found = types.find(letter);
-      text += (text.empty() ? "" : ", ") + std::to_string(count) + " " +
-              (found == types.end() || found->second.empty() ? std::string{letter} : found->second);
-    }
-    compositions[cell.composition] = text;
+    compositions[cell.composition] = joined(counts, ", ", [&](const auto& of_type) {
+      const auto found = types.find(of_type.first);
+      return std::to_string(of_type.second) + " " +
+             (found == types.end() || found->second.empty() ? std::string{of_type.first} : found->second);
+    });
   }
   return {{"strategies", std::move(strategies)}, {"compositions", std::move(compositions)}};
 }

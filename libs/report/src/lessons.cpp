@@ -48,9 +48,7 @@ std::vector<std::size_t> telling_first(const ReportDesign& design, const RunData
 
 // "-1 0 2"
 std::string conveyed_text(const HalfSpace& half_space) {
-  std::string text;
-  for (const auto entry : half_space.normal()) text += (text.empty() ? "" : " ") + std::to_string(entry);
-  return text;
+  return joined(half_space.normal(), " ", [](std::int64_t entry) { return std::to_string(entry); });
 }
 
 class LessonReader {

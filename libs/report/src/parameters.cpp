@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "kith/core/text.hpp"
 #include "kith/files/document.hpp"
 #include "kith/study/study_keys.hpp"
 
@@ -73,10 +74,7 @@ std::optional<std::string> meaning_in(std::span<const Parameter> keys, std::stri
 std::string text_of(const TomlValue& value) {
   if (const auto* text = value.string()) return *text;
   const auto* array = value.array();
-  if (array == nullptr) return to_toml(value);
-  std::string text;
-  for (const auto& one : *array) text += (text.empty() ? "" : ", ") + text_of(one);
-  return text;
+  return array == nullptr ? to_toml(value) : joined(*array, ", ", text_of);
 }
 
 class Parameters {
@@ -101,22 +99,15 @@ class Parameters {
   }
 
   void add_domain(const Domain& domain) {
-    const auto& names = domain.feature_names();
-    std::string features, weights, prior;
-    for (std::size_t k = 0; k < domain.num_features(); ++k) {
-      features += (k == 0 ? "" : ", ") + names[k];
-      weights += (k == 0 ? "" : ", ") + shortest(domain.weights().raw[k]);
-    }
-    for (const auto& half_space : domain.prior()) {
-      prior += prior.empty() ? "" : "; ";
-      for (std::size_t k = 0; k < domain.num_features(); ++k) {
-        prior += (k == 0 ? "" : " ") + std::to_string(half_space.normal()[k]);
-      }
-    }
+    const auto normal = [](const HalfSpace& half_space) {
+      return joined(half_space.normal(), " ", [](std::int64_t entry) { return std::to_string(entry); });
+    };
     add_fact("id", domain.id(), "the domain");
-    add_fact("features", features, "what the reward counts");
-    add_fact("weights", weights, "the robot's reward weights, as the domain file has them");
-    add_fact("prior", prior, "normals of the half-spaces that everybody is assumed to know");
+    add_fact("features", joined(domain.feature_names()), "what the reward counts");
+    add_fact("weights", joined(domain.weights().raw, ", ", shortest),
+             "the robot's reward weights, as the domain file has them");
+    add_fact("prior", joined(domain.prior(), "; ", normal),
+             "normals of the half-spaces that everybody is assumed to know");
     add_fact("mdps", std::to_string(domain.num_mdps()), "worlds: combinations of what is optional in the domain");
     add_fact("starts", std::to_string(domain.num_starts()), "start states of all worlds: candidate demonstrations");
   }

@@ -11,6 +11,7 @@
 #include "first_screen.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
+#include "kith/core/text.hpp"
 #include "lessons.hpp"
 #include "matrices.hpp"
 #include "methods.hpp"
@@ -135,9 +136,8 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
 // ", at 6 settings of teacher.process_noise and teacher.particles"
 std::string settings_of(const RunFiles& run) {
   if (run.spec().factors.empty()) return "";
-  std::string keys;
-  for (const auto& factor : run.spec().factors) keys += (keys.empty() ? "" : " and ") + factor.key;
-  return ", at " + std::to_string(run.study.variants.size()) + " settings of " + keys;
+  return ", at " + std::to_string(run.study.variants.size()) + " settings of " +
+         joined(run.spec().factors, " and ", &FactorSetting::key);
 }
 
 // "300 teams of 3 simulated people were taught what a robot does, in 5 ways."

@@ -7,6 +7,7 @@
 #include "first_screen.hpp"
 #include "kith/analysis/effect_size.hpp"
 #include "kith/analysis/table_model.hpp"
+#include "kith/core/text.hpp"
 #include "kith/files/column_names.hpp"
 #include "outcomes.hpp"
 #include "sentences.hpp"
@@ -317,17 +318,13 @@ std::vector<std::string> notes_of(const SessionTables& tables, const PeopleTable
   for (const auto& group : tables.groups) {
     if (!group.ended.empty()) ++reasons[group.ended];
   }
-  std::string listed;
-  std::size_t ended = 0;
-  for (const auto& [reason, count] : reasons) {
-    listed += (listed.empty() ? "" : ", ") + reason + ": " + std::to_string(count);
-    ended += count;
-  }
+  const auto counts =
+      joined(reasons, ", ", [](const auto& one) { return one.first + ": " + std::to_string(one.second); });
 
   const auto censored = tables.groups.size() - num_completed(tables);
   if (censored > 0) {
     notes.push_back(how_many(censored, "group", "groups") + " stopped before everything was learned" +
-                    (ended > 0 ? " (" + listed + ")" : std::string{}) +
+                    (counts.empty() ? "" : " (" + counts + ")") +
                     ". The completion curves treat them as censored; means include them with the periods they had.");
   }
 

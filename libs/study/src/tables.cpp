@@ -13,22 +13,17 @@ namespace kith {
 namespace {
 
 std::string blank_separated(const IntegerVector& v) {
-  std::string text;
-  for (const auto entry : v) text += (text.empty() ? "" : " ") + std::to_string(entry);
-  return text;
+  return joined(v, " ", [](std::int64_t entry) { return std::to_string(entry); });
 }
 
 // Counts in units of 1 / scale.
 std::string counts_text(const IntegerVector& counts, std::int64_t scale) {
   if (scale == 1) return blank_separated(counts);
-  std::string text;
-  for (const auto entry : counts) {
+  return joined(counts, " ", [&](std::int64_t entry) {
     std::array<char, 32> digits{};
     const double value = static_cast<double>(entry) / static_cast<double>(scale);
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    text += (text.empty() ? "" : " ") + std::string{digits.data(), end};
-  }
-  return text;
+    return std::string{digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  });
 }
 
 // What a cell shows of a member of a record.
