@@ -42,18 +42,16 @@ Json first_test(const Ran& ran) {
 
 TEST_F(AnalysisInR, WithoutRSaysWhatToInstallAndWritesWhatRIsAsked) {
   const auto table = file("people.csv", "team,g,y\n1,a,1\n1,b,2\n2,a,4\n2,b,9\n3,a,4\n3,b,7\n");
-  const auto ran = run_kith({"analyze", table, "--model", "y ~ g + (1|team)", "--r", scratch_ / "r"}, kWithoutR);
-  EXPECT_EQ(ran.code, 4);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("this model needs R"), HasSubstr("apt install r-base-core r-cran-lme4")));
+  const auto ran = err_of(4, {"analyze", table, "--model", "y ~ g + (1|team)", "--r", scratch_ / "r"}, kWithoutR);
+  EXPECT_THAT(ran, AllOf(HasSubstr("this model needs R"), HasSubstr("apt install r-base-core r-cran-lme4")));
   for (const auto* const name : {"data.csv", "plan.json", "analysis.R"})
     EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::path{scratch_ / "r"} / name)) << name;
   EXPECT_EQ(Json::parse(text_of(scratch_ / "r/plan.json")).at("formula"), "y ~ g + (1|team)");
 }
 
 TEST_F(AnalysisInR, WithoutRABalancedTableIsAnalysed) {
-  const auto ran = run_kith({"analyze", file("t.csv", balanced_rows()), "--model", "y ~ g*h"}, kWithoutR);
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("R is not installed"), HasSubstr("Analysis of variance (type II)")));
+  const auto ran = out_of({"analyze", file("t.csv", balanced_rows()), "--model", "y ~ g*h"}, kWithoutR);
+  EXPECT_THAT(ran, AllOf(HasSubstr("R is not installed"), HasSubstr("Analysis of variance (type II)")));
 }
 
 TEST_F(AnalysisInR, ABalancedTableHasTheSameFAsWithoutR) {
@@ -94,9 +92,7 @@ TEST_F(AnalysisInR, FitsRatingsCountsAndCrossedPeople) {
   const auto sentence = [&](const std::vector<std::string>& options) {
     std::vector<std::string> words{"analyze", table, "--model"};
     words.insert(words.end(), options.begin(), options.end());
-    const auto ran = run_kith(words);
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    return ran.out;
+    return out_of(words);
   };
   EXPECT_THAT(sentence({"ease ~ g", "--ordinal"}), HasSubstr("Proportional odds model of ease"));
   EXPECT_THAT(sentence({"n ~ g", "--count"}), HasSubstr("Ratios of means"));

@@ -29,13 +29,12 @@ class AnalyzeCommand : public ::testing::Test {
 Scratch* AnalyzeCommand::scratch_ = nullptr;
 
 TEST_F(AnalyzeCommand, AnswersTheQuestionsOfAStudyInWordsAndTables) {
-  const auto ran = run_kith({"analyze", folder(), "--all"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Effects of strategy and composition: periods"),
-                             HasSubstr("(32 teams in 8 groups)"), HasSubstr("Tests of the fixed effects"),
-                             HasSubstr("For a paper: "), HasSubstr("Analysis of variance as published"),
-                             HasSubstr("Manipulation check"), HasSubstr("Taught together or alone: knowledge")));
-  EXPECT_THAT(ran.out, Not(ContainsRegex("\\b(nan|inf)\\b")));
+  const auto ran = out_of({"analyze", folder(), "--all"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("Effects of strategy and composition: periods"), HasSubstr("(32 teams in 8 groups)"),
+                         HasSubstr("Tests of the fixed effects"), HasSubstr("For a paper: "),
+                         HasSubstr("Analysis of variance as published"), HasSubstr("Manipulation check"),
+                         HasSubstr("Taught together or alone: knowledge")));
+  EXPECT_THAT(ran, Not(ContainsRegex("\\b(nan|inf)\\b")));
 }
 
 TEST_F(AnalyzeCommand, TakesTeamsOfOtherPeopleAsIndependent) {
@@ -44,9 +43,7 @@ TEST_F(AnalyzeCommand, TakesTeamsOfOtherPeopleAsIndependent) {
       run_kith({"study", "paper", "-o", others, "-q", "--set", "replicates=2", "--set", "design.pairing=\"none\""})
           .code,
       0);
-  const auto ran = run_kith({"analyze", others, "--all"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out,
+  EXPECT_THAT(out_of({"analyze", others, "--all"}),
               AllOf(HasSubstr("(32 teams)"), HasSubstr("Analysis of variance (type II)"), HasSubstr("Kaplan-Meier"),
                     HasSubstr("Welch's t test"), Not(HasSubstr("Tests of the fixed effects"))));
 }
@@ -66,7 +63,7 @@ TEST_F(AnalyzeCommand, FitsOnAPage) {
   EXPECT_GT(num_lines(all), 3 * num_lines(page));
   EXPECT_THAT(page, AllOf(HasSubstr("Effects of strategy and composition: periods"), HasSubstr("--all` shows "),
                           Not(HasSubstr("Manipulation check"))));
-  const auto findings = Json::parse(run_kith({"analyze", folder(), "--json"}).out).at("findings");
+  const auto findings = json_of({"analyze", folder()}).at("findings");
   const auto left = page.substr(page.find("--all` shows"));
   for (const auto& finding : findings) {
     const bool is_shown = page.find(finding.at("title").get<std::string>()) != std::string::npos;
@@ -93,23 +90,19 @@ TEST_F(AnalyzeCommand, AlignsLettersOfSeveralBytes) {
                           "d,1\nS\xC3\xBC"
                           "d,2\nS\xC3\xBC"
                           "d,3\nOst,4\nOst,5\nOst,7\n");
-  const auto ran = run_kith({"analyze", table, "--model", "y ~ g"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("S\xC3\xBC"
-                                       "d  3  2.000"),
-                             HasSubstr("Ost  3  5.333")));
+  EXPECT_THAT(out_of({"analyze", table, "--model", "y ~ g"}), AllOf(HasSubstr("S\xC3\xBC"
+                                                                              "d  3  2.000"),
+                                                                    HasSubstr("Ost  3  5.333")));
 }
 
 TEST_F(AnalyzeCommand, TestsAModelOnStandardInput) {
-  const auto ran = run_kith({"analyze", "-", "--model", "y ~ g"}, {.input = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\n"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("13.50"));
+  const auto ran = out_of({"analyze", "-", "--model", "y ~ g"}, {.input = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\n"});
+  EXPECT_THAT(ran, HasSubstr("13.50"));
 }
 
 TEST_F(AnalyzeCommand, TestsContrastsThatWerePlanned) {
-  const auto ran = run_kith({"analyze", folder(), "--contrast", "mine: joint - common"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Planned contrasts of strategy"), HasSubstr("\nmine ")));
+  const auto ran = out_of({"analyze", folder(), "--contrast", "mine: joint - common"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("Planned contrasts of strategy"), HasSubstr("\nmine ")));
   EXPECT_EQ(run_kith({"analyze", folder(), "--contrast", "joint - nobody"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--contrast", "joint + common"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--smallest-effect", "0.5"}).code, 2);  // needs --model
@@ -117,17 +110,14 @@ TEST_F(AnalyzeCommand, TestsContrastsThatWerePlanned) {
 
 TEST_F(AnalyzeCommand, WritesTablesForPapers) {
   const std::string out = *scratch_ / "out";
-  const auto ran = run_kith({"analyze", folder(), "--latex", out + ".tex", "--csv", out + "/csv", "--brief"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  expect_code(0, {"analyze", folder(), "--latex", out + ".tex", "--csv", out + "/csv", "--brief"});
   for (const auto* name : {".tex", "/csv/tables.csv", "/csv/knowledge-1.csv"})
     EXPECT_TRUE(std::filesystem::is_regular_file(out + name)) << name;
 }
 
 TEST_F(AnalyzeCommand, RefusesFoldersWithoutFinishedResults) {
   std::filesystem::create_directories(*scratch_ / "half/inputs");
-  const auto half = run_kith({"analyze", *scratch_ / "half"});
-  EXPECT_EQ(half.code, 3);
-  EXPECT_THAT(half.err, HasSubstr("has not finished"));
+  EXPECT_THAT(err_of(3, {"analyze", *scratch_ / "half"}), HasSubstr("has not finished"));
   std::filesystem::create_directories(*scratch_ / "empty");
   EXPECT_EQ(run_kith({"analyze", *scratch_ / "empty"}).code, 3);
   EXPECT_EQ(run_kith({"analyze", *scratch_ / "nowhere"}).code, 5);

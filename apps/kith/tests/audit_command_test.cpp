@@ -30,14 +30,13 @@ class AuditCommand : public ::testing::Test {
 Scratch* AuditCommand::scratch_ = nullptr;
 
 TEST_F(AuditCommand, SaysWhoUnderstandsWhat) {
-  const auto ran = run_kith({"audit", run(), "--team", "3"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("team 3 (common, NP, replicate 1)"));
-  EXPECT_THAT(ran.out, HasSubstr("Member 1 (N)"));
-  EXPECT_THAT(ran.out, HasSubstr("1. crossing rubble versus steps: "));
-  EXPECT_THAT(ran.out, HasSubstr("next: "));
-  EXPECT_THAT(ran.out, HasSubstr("answers are right, "));
-  std::istringstream lines{ran.out};
+  const auto ran = out_of({"audit", run(), "--team", "3"});
+  EXPECT_THAT(ran, HasSubstr("team 3 (common, NP, replicate 1)"));
+  EXPECT_THAT(ran, HasSubstr("Member 1 (N)"));
+  EXPECT_THAT(ran, HasSubstr("1. crossing rubble versus steps: "));
+  EXPECT_THAT(ran, HasSubstr("next: "));
+  EXPECT_THAT(ran, HasSubstr("answers are right, "));
+  std::istringstream lines{ran};
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
 }
 
@@ -78,7 +77,7 @@ TEST_F(AuditCommand, SaysWhatKindOfLearnerEverybodySeemsToBe) {
   for (const char* setting : {"teacher.hypotheses=\"kinds\"", "learner.N.kind=\"imitating\"", "stop.max_periods=5"})
     command.insert(command.end(), {"--set", setting});
   ASSERT_EQ(run_kith(command).code, 0);
-  const auto people = Json::parse(run_kith({"audit", asks, "--json"}).out).at("people");
+  const auto people = json_of({"audit", asks}).at("people");
   ASSERT_EQ(people.size(), 4u);
   for (const auto& person : people) {
     double sum = 0.0, most = 0.0;
@@ -98,23 +97,17 @@ TEST_F(AuditCommand, SaysWhatKindOfLearnerEverybodySeemsToBe) {
   EXPECT_EQ(lines, people.size()) << text;
   EXPECT_THAT(run_kith({"audit", asks, "-o", "-", "-q"}).out, HasSubstr("\"kinds\":{"));
 
-  EXPECT_FALSE(Json::parse(run_kith({"audit", run(), "--json"}).out).at("people").at(0).contains("kind"));
+  EXPECT_FALSE(json_of({"audit", run()}).at("people").at(0).contains("kind"));
   EXPECT_THAT(run_kith({"audit", run()}).out, Not(HasSubstr("kind of learner")));
 }
 
 TEST_F(AuditCommand, NeedsAnswers) {
   const auto teams_only = *scratch_ / "teams-only";
   ASSERT_EQ(run_kith(study(teams_only, "record.level=\"team\"")).code, 0);
-  const auto nothing = run_kith({"audit", teams_only});
-  EXPECT_EQ(nothing.code, 4);
-  EXPECT_THAT(nothing.err, HasSubstr("E1113"));
-  const auto wrong = run_kith({"audit", run(), "--team", "99"});
-  EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("--team must be an integer from 1 to 4"));
+  EXPECT_THAT(err_of(4, {"audit", teams_only}), HasSubstr("E1113"));
+  EXPECT_THAT(err_of(2, {"audit", run(), "--team", "99"}), HasSubstr("--team must be an integer from 1 to 4"));
   EXPECT_EQ(run_kith({"audit", run(), "--room", "r1"}).code, 2);
-  const auto neither = run_kith({"audit", *scratch_ / "nowhere"});
-  EXPECT_EQ(neither.code, 5);
-  EXPECT_THAT(neither.err, HasSubstr("E1114"));
+  EXPECT_THAT(err_of(5, {"audit", *scratch_ / "nowhere"}), HasSubstr("E1114"));
 }
 
 TEST_F(AuditCommand, ReadsTheTeamsThatAreFinished) {
@@ -124,27 +117,20 @@ TEST_F(AuditCommand, ReadsTheTeamsThatAreFinished) {
   auto arguments = study(folder, "replicates=8");
   arguments.insert(arguments.end(), {"-j", "1"});
   EXPECT_NE(run_kith(arguments, with).code, 0);
-  const auto some = run_kith({"audit", folder, "--json"});
-  EXPECT_EQ(some.code, 0) << some.err;
-  const auto people = Json::parse(some.out).at("people").size();
+  const auto people = json_of({"audit", folder}).at("people").size();
   EXPECT_GT(people, 0u);
   EXPECT_LT(people, 32u);
-  const auto missing = run_kith({"audit", folder, "--team", "16"});
-  EXPECT_EQ(missing.code, 4);
-  EXPECT_THAT(missing.err, HasSubstr("E1115"));
+  EXPECT_THAT(err_of(4, {"audit", folder, "--team", "16"}), HasSubstr("E1115"));
 }
 
 TEST_F(AuditCommand, ReadsLiveSessions) {
   const auto folder = *scratch_ / "live";
-  const auto served = run_kith({"serve", "quick", "-o", folder, "--rehearse", "1", "--answer-every", "0.05", "-q"});
-  ASSERT_EQ(served.code, 0) << served.err;
-  const auto ran = run_kith({"audit", folder});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("room "));
-  EXPECT_THAT(ran.out, HasSubstr("Member 2 (P, a person in seat 2)"));
+  expect_code(0, {"serve", "quick", "-o", folder, "--rehearse", "1", "--answer-every", "0.05", "-q"});
+  const auto ran = out_of({"audit", folder});
+  EXPECT_THAT(ran, HasSubstr("room "));
+  EXPECT_THAT(ran, HasSubstr("Member 2 (P, a person in seat 2)"));
   EXPECT_EQ(run_kith({"audit", folder, "--team", "1"}).code, 2);
-  const auto none = run_kith({"audit", folder, "--room", "r99"});
-  EXPECT_EQ(none.code, 3);
+  expect_code(3, {"audit", folder, "--room", "r99"});
 }
 
 TEST(ExamCommand, RehearsesAnExamOnAnyNumberOfThreads) {

@@ -169,9 +169,8 @@ TEST(CommandLine, ColoursOnlyWhenAsked) {
 }
 
 TEST(CommandLine, SaysWhenStandardOutputIsFull) {
-  const auto ran = run_kith({"inspect", "item-delivery"}, {{}, "", "/dev/full"});
-  EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, HasSubstr("cannot write to standard output"));
+  const auto ran = err_of(5, {"inspect", "item-delivery"}, {{}, "", "/dev/full"});
+  EXPECT_THAT(ran, HasSubstr("cannot write to standard output"));
 }
 
 TEST(CommandLine, EndsQuietlyWhenItsReaderGoesAway) {
@@ -198,38 +197,31 @@ TEST(CommandLine, SaysWhereThereIsNoJson) {
 }
 
 TEST(Version, NamesTheBuild) {
-  const auto text = run_kith({"--version"});
-  EXPECT_EQ(text.code, 0);
-  EXPECT_THAT(text.out, ::testing::MatchesRegex("kith [0-9.]+ \\(.+, GNU .+, .+\\)\n"));
+  EXPECT_THAT(out_of({"--version"}), ::testing::MatchesRegex("kith [0-9.]+ \\(.+, GNU .+, .+\\)\n"));
 }
 
 TEST(Doctor, FindsThisMachineHealthy) {
-  const auto ran = run_kith({"doctor"});
-  EXPECT_EQ(ran.code, 0) << ran.out;
-  EXPECT_THAT(ran.out, HasSubstr("self-test"));
-  EXPECT_THAT(ran.out, HasSubstr("CLI11 "));
+  const auto ran = out_of({"doctor"});
+  EXPECT_THAT(ran, HasSubstr("self-test"));
+  EXPECT_THAT(ran, HasSubstr("CLI11 "));
 }
 
 TEST(Validate, AcceptsStudiesAndDomains) {
   const std::string root = KITH_SOURCE_DIR;
-  const auto ran = run_kith({"validate", root + "/studies/paper.toml", root + "/domains/item_delivery.toml"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out,
+  EXPECT_THAT(out_of({"validate", root + "/studies/paper.toml", root + "/domains/item_delivery.toml"}),
               AllOf(HasSubstr("study 'paper' is valid (300 teams"), HasSubstr("64 worlds, 9312 start states")));
 }
 
 TEST(Validate, KnowsWhatComesWithKith) {
-  const auto ran = run_kith({"validate", "rescue-floor", "paper"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("rescue-floor: domain 'rescue-floor' is valid (16 worlds"),
-                             HasSubstr("paper: study 'paper' is valid (300 teams")));
+  const auto ran = out_of({"validate", "rescue-floor", "paper"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("rescue-floor: domain 'rescue-floor' is valid (16 worlds"),
+                         HasSubstr("paper: study 'paper' is valid (300 teams")));
   EXPECT_EQ(run_kith({"validate", "rescue-flor"}).code, 5);
 }
 
 TEST(Validate, ReadsStandardInput) {
-  const auto ran = run_kith({"validate", "-"}, {{}, "schema = \"kith.unknown/1\"\n", ""});
-  EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, HasSubstr("<stdin>:1:10: error[E0106]"));
+  const auto ran = err_of(3, {"validate", "-"}, {{}, "schema = \"kith.unknown/1\"\n", ""});
+  EXPECT_THAT(ran, HasSubstr("<stdin>:1:10: error[E0106]"));
 }
 
 TEST(Validate, LetsWarningsCountOnDemand) {
@@ -240,14 +232,12 @@ TEST(Validate, LetsWarningsCountOnDemand) {
   const auto lenient = run_kith({"validate", "-"}, {{}, lonely, ""});
   EXPECT_EQ(lenient.code, 0);
   EXPECT_THAT(lenient.err, HasSubstr("warning[W0401]"));
-  const auto strict = run_kith({"validate", "--strict", "-"}, {{}, lonely, ""});
-  EXPECT_EQ(strict.code, 3);
-  EXPECT_THAT(strict.err, HasSubstr("error[W0401]"));
+  EXPECT_THAT(err_of(3, {"validate", "--strict", "-"}, {{}, lonely, ""}), HasSubstr("error[W0401]"));
 }
 
 // The published facts of item delivery [jayaraman2024], as others will read them.
 TEST(Inspect, PrintsTheKnownFactsOfItemDelivery) {
-  const auto document = Json::parse(run_kith({"inspect", "item-delivery", "--json"}).out);
+  const auto document = json_of({"inspect", "item-delivery"});
   EXPECT_EQ(document.at("mdps"), 64);
   EXPECT_EQ(document.at("demonstrations"), 9312);
   EXPECT_EQ(document.at("weights").at("raw"), Json({-3.0, 3.5, -1.0}));

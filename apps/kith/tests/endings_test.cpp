@@ -55,10 +55,9 @@ void break_standard_error() {
 TEST(Progress, ThatCannotBeWrittenDoesNotEndAStudy) {
   for (const auto& deny : {close_standard_error, fill_standard_error, break_standard_error}) {
     const Scratch scratch;
-    const auto ran = run_kith(with(tiny_study(scratch / "run"), {"--progress", "json"}), {.prepare = deny});
-    EXPECT_EQ(ran.code, 0);
+    const auto ran = out_of(with(tiny_study(scratch / "run"), {"--progress", "json"}), {.prepare = deny});
     EXPECT_EQ(tables_in(scratch / "run"), tiny_tables());
-    EXPECT_THAT(ran.out, Not(IsEmpty()));
+    EXPECT_THAT(ran, Not(IsEmpty()));
     EXPECT_EQ(run_kith({"verify", scratch / "run", "--progress", "json"}, {.prepare = deny}).code, 0);
   }
 }
@@ -118,9 +117,7 @@ TEST(Progress, OfAClosedTerminalDoesNotEndAStudy) {
   }
   EXPECT_THAT(shown, HasSubstr("/200000 teams"));
   terminal.close_it();
-  const auto done = [&] {
-    return Json::parse(run_kith({"status", scratch / "run", "--json"}).out).at("done").get<int>();
-  };
+  const auto done = [&] { return json_of({"status", scratch / "run"}).at("done").get<int>(); };
   const int before = done();
   usleep(500'000);  // several updates of the bar
   EXPECT_EQ(kill(child, SIGTERM), 0);
@@ -148,28 +145,22 @@ TEST(StandardStreams, ThatAreClosedAreNotMixedUpWithFiles) {
 }
 
 TEST(StandardStreams, ThatAreClosedAreErrorsWhereTheyAreNeeded) {
-  const auto no_input = run_kith({"validate", "-"}, {.prepare = [] { close(STDIN_FILENO); }});
-  EXPECT_EQ(no_input.code, 5);
-  EXPECT_THAT(no_input.err, HasSubstr("cannot read standard input"));
-  const auto no_output = run_kith({"version"}, {.prepare = [] { close(STDOUT_FILENO); }});
-  EXPECT_EQ(no_output.code, 5);
-  EXPECT_THAT(no_output.err, HasSubstr("cannot write to standard output"));
+  const auto no_input = err_of(5, {"validate", "-"}, {.prepare = [] { close(STDIN_FILENO); }});
+  EXPECT_THAT(no_input, HasSubstr("cannot read standard input"));
+  const auto no_output = err_of(5, {"version"}, {.prepare = [] { close(STDOUT_FILENO); }});
+  EXPECT_THAT(no_output, HasSubstr("cannot write to standard output"));
 }
 
 TEST(Json, ThatCannotBeWrittenIsAnErrorInWords) {
-  const auto ran = run_kith({"lesson", "item-delivery", "--json"}, {.out_to = "/dev/full"});
-  EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, HasSubstr("kith: error: cannot write to standard output: No space left on device"));
-  const auto wrong = run_kith({"inspect", "item-delivry", "--json"}, {.out_to = "/dev/full"});
-  EXPECT_EQ(wrong.code, 5);
-  EXPECT_THAT(wrong.err,
+  const auto ran = err_of(5, {"lesson", "item-delivery", "--json"}, {.out_to = "/dev/full"});
+  EXPECT_THAT(ran, HasSubstr("kith: error: cannot write to standard output: No space left on device"));
+  EXPECT_THAT(err_of(5, {"inspect", "item-delivry", "--json"}, {.out_to = "/dev/full"}),
               AllOf(HasSubstr("did you mean 'item-delivery'?"), HasSubstr("cannot write to standard output")));
 }
 
 TEST(Messages, DoNotCommandTheTerminal) {
-  const auto ran = run_kith({"inspect", "no\033[2Jsuch\rdomain"});
-  EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("no\\x1b[2Jsuch\\x0ddomain"), Not(HasSubstr("\033")), Not(HasSubstr("\r"))));
+  const auto ran = err_of(3, {"inspect", "no\033[2Jsuch\rdomain"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("no\\x1b[2Jsuch\\x0ddomain"), Not(HasSubstr("\033")), Not(HasSubstr("\r"))));
   const Scratch scratch;
   write_text(scratch / "d.toml", "schema = \"\\u001b[2J\"\n");
   EXPECT_THAT(run_kith({"inspect", scratch / "d.toml"}).err, AllOf(HasSubstr("\\x1b[2J"), Not(HasSubstr("\033"))));
@@ -237,9 +228,8 @@ TEST(Files, WithNamesThatTheSystemRefusesAreNoInternalError) {
 TEST(Files, ThatAStudyNamesAsItsDomainAreNotShown) {
   const Scratch scratch;
   write_text(scratch / "secret", "password of the king: swordfish\n");
-  const auto ran = run_kith({"study", "quick", "--dry-run", "--set", "domain=\"" + (scratch / "secret") + "\""});
-  EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("E0116"), HasSubstr("ends in .toml"), Not(HasSubstr("swordfish"))));
+  const auto ran = err_of(3, {"study", "quick", "--dry-run", "--set", "domain=\"" + (scratch / "secret") + "\""});
+  EXPECT_THAT(ran, AllOf(HasSubstr("E0116"), HasSubstr("ends in .toml"), Not(HasSubstr("swordfish"))));
 }
 
 class RunFolder : public ::testing::Test {
@@ -257,9 +247,7 @@ TEST_F(RunFolder, WithoutAColumnIsNoInternalError) {
   const auto at = text.find("replicate");
   ASSERT_NE(at, std::string::npos);
   write_text(teams_file(), text.replace(at, 9, "repeat"));
-  const auto ran = run_kith({"analyze", run_});
-  EXPECT_EQ(ran.code, 7);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("E0607"), HasSubstr("teams.csv")));
+  EXPECT_THAT(err_of(7, {"analyze", run_}), AllOf(HasSubstr("E0607"), HasSubstr("teams.csv")));
 }
 
 TEST_F(RunFolder, WithANamedPipeInItKeepsNobodyWaiting) {
@@ -267,9 +255,7 @@ TEST_F(RunFolder, WithANamedPipeInItKeepsNobodyWaiting) {
   ASSERT_EQ(mkfifo(teams_file().c_str(), 0600), 0);
   for (const auto& command :
        std::vector<std::vector<std::string>>{{"analyze", run_}, {"analyze", run_, "--model", "knowledge ~ strategy"}}) {
-    const auto ran = run_kith(command, {.prepare = guard});
-    EXPECT_EQ(ran.code, 3);
-    EXPECT_THAT(ran.err, AllOf(HasSubstr("teams.csv"), HasSubstr("not a regular file")));
+    EXPECT_THAT(err_of(3, command, {.prepare = guard}), AllOf(HasSubstr("teams.csv"), HasSubstr("not a regular file")));
   }
 }
 
@@ -289,9 +275,8 @@ TEST_F(RunFolder, GetsItsReportWhereALinkLeadsElsewhere) {
 TEST_F(RunFolder, DoesNotWaitForAReaderOfItsReport) {
   const auto pipe = scratch_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  const auto ran = run_kith({"report", run_, "-o", pipe}, {.prepare = guard});
-  EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, HasSubstr("no program reads from this pipe"));
+  const auto ran = err_of(5, {"report", run_, "-o", pipe}, {.prepare = guard});
+  EXPECT_THAT(ran, HasSubstr("no program reads from this pipe"));
 }
 
 TEST(Validate, ReadsAPipe) {

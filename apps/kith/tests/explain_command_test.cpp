@@ -38,9 +38,7 @@ void expect_board(const Json& document, const Json& board, const Json& frames) {
 }
 
 TEST(CurriculumCommand, PrintsBoardsReasonsAndTestsAsJson) {
-  const auto ran = run_kith({"lesson", "item-delivery", "--json"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  const auto document = Json::parse(ran.out);
+  const auto document = json_of({"lesson", "item-delivery"});
   EXPECT_EQ(document.at("schema"), "kith.curriculum/1");
   EXPECT_EQ(document["domain"]["features"][0], (Json{{"name", "rubble"},
                                                      {"words", "crossing rubble"},
@@ -95,9 +93,7 @@ std::string write_road(const Scratch& scratch) {
 TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
   const Scratch scratch;
   write_road(scratch);
-  const auto ran = run_kith({"lesson", scratch / "road.toml"});
-  EXPECT_EQ(ran.code, 4);
-  EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
+  EXPECT_THAT(err_of(4, {"lesson", scratch / "road.toml"}), HasSubstr("nothing about 'road' can be taught: "));
   const auto json = run_kith({"lesson", scratch / "road.toml", "--json"});
   EXPECT_EQ(json.code, 4);
   EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1101");
@@ -105,17 +101,15 @@ TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
 
 TEST(TeachCommand, FailsWithFourWhereNothingCanBeTaught) {
   const Scratch scratch;
-  const auto ran = run_kith({"teach", write_road(scratch), "--group", "NP"});
-  EXPECT_EQ(ran.code, 4);
-  EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
+  const auto ran = err_of(4, {"teach", write_road(scratch), "--group", "NP"});
+  EXPECT_THAT(ran, HasSubstr("nothing about 'road' can be taught: "));
 }
 
 TEST(StudyCommand, FailsWithFourAndLeavesNothingWhereNothingCanBeTaught) {
   const Scratch scratch;
   const auto ran =
-      run_kith({"study", "paper", "--set", "domain=\"" + write_road(scratch) + "\"", "-o", scratch / "run"});
-  EXPECT_EQ(ran.code, 4) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
+      err_of(4, {"study", "paper", "--set", "domain=\"" + write_road(scratch) + "\"", "-o", scratch / "run"});
+  EXPECT_THAT(ran, HasSubstr("nothing about 'road' can be taught: "));
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
@@ -123,15 +117,10 @@ TEST(StudyCommand, FailsWithFourAndLeavesNothingWhereNothingCanBeTaught) {
 TEST(WhatCanBeShown, IsTheSameForCurriculumTeachAndStudy) {
   const Scratch scratch;
   std::ofstream{scratch / "open.toml"} << kToAndFro;
-  const auto lesson = run_kith({"lesson", scratch / "open.toml"});
-  EXPECT_EQ(lesson.code, 0) << lesson.err;
-  EXPECT_THAT(lesson.out, HasSubstr("right and step twice together cost something"));
-  const auto taught = run_kith({"teach", scratch / "open.toml", "--group", "NP", "--strategy", "common"});
-  EXPECT_EQ(taught.code, 0) << taught.err;
-  EXPECT_THAT(taught.out, HasSubstr("1 of 1 knowledge components learned"));
-  const auto ran =
-      run_kith({"study", "quick", "--set", "domain=\"" + scratch / "open.toml" + "\"", "-o", scratch / "run"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(out_of({"lesson", scratch / "open.toml"}), HasSubstr("right and step twice together cost something"));
+  const auto taught = out_of({"teach", scratch / "open.toml", "--group", "NP", "--strategy", "common"});
+  EXPECT_THAT(taught, HasSubstr("1 of 1 knowledge components learned"));
+  expect_code(0, {"study", "quick", "--set", "domain=\"" + scratch / "open.toml" + "\"", "-o", scratch / "run"});
   EXPECT_EQ(tables_in(scratch / "run").at("teams.csv").find(",skipped,"), std::string::npos);
 }
 
@@ -150,7 +139,7 @@ TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {
 }
 
 TEST(CurriculumCommand, NamesAllThatASymbolPutsOnACell) {
-  const auto document = Json::parse(run_kith({"lesson", "item-delivery", "--json"}).out);
+  const auto document = json_of({"lesson", "item-delivery"});
   for (const auto& entry : document["domain"]["legend"]) {
     EXPECT_EQ(entry.at("kind"), entry.at("parts").at(0).at("kind"));
     if (entry["symbol"] == "S") {
@@ -161,46 +150,36 @@ TEST(CurriculumCommand, NamesAllThatASymbolPutsOnACell) {
 }
 
 TEST(FindCommand, ListsWhatCanBeIsolated) {
-  const auto ran = run_kith({"find", "item-delivery"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("(-1,0,2): crossing rubble costs more than 2 steps"));
-  const auto document = Json::parse(run_kith({"find", "item-delivery", "--json"}).out);
+  EXPECT_THAT(out_of({"find", "item-delivery"}), HasSubstr("(-1,0,2): crossing rubble costs more than 2 steps"));
+  const auto document = json_of({"find", "item-delivery"});
   EXPECT_EQ(document.at("schema"), "kith.find/1");
   EXPECT_FALSE(document.at("constraints").empty());
 }
 
 TEST(FindCommand, FindsAStartByNormalOrSentence) {
-  const auto by_normal = run_kith({"find", "item-delivery", "(-1,0,2)"});
-  EXPECT_EQ(by_normal.code, 0) << by_normal.err;
-  EXPECT_THAT(by_normal.out, HasSubstr("teaches exactly this: (-1,0,2)"));
-  EXPECT_EQ(run_kith({"find", "item-delivery", "crossing rubble costs more than 2 steps"}).out, by_normal.out);
-  const auto document = Json::parse(run_kith({"find", "item-delivery", "(-1,0,2)", "--test", "--json"}).out);
+  const auto by_normal = out_of({"find", "item-delivery", "(-1,0,2)"});
+  EXPECT_THAT(by_normal, HasSubstr("teaches exactly this: (-1,0,2)"));
+  EXPECT_EQ(run_kith({"find", "item-delivery", "crossing rubble costs more than 2 steps"}).out, by_normal);
+  const auto document = json_of({"find", "item-delivery", "(-1,0,2)", "--test"});
   EXPECT_EQ(document.at("purpose"), "test");
   expect_board(document, document.at("found"), document["found"].at("frames"));
 }
 
 TEST(FindCommand, SaysThatNoWorldDoesItAndWritesOneThatDoes) {
   const Scratch scratch;
-  const auto none = run_kith({"find", "item-delivery", "(1,1,0)"});
-  EXPECT_EQ(none.code, 4);
-  EXPECT_THAT(none.err, HasSubstr("no start state of 'item-delivery' teaches exactly (1,1,0)"));
-  EXPECT_EQ(Json::parse(run_kith({"find", "item-delivery", "(1,1,0)", "--json"}).out)["errors"][0]["id"], "E1111");
+  const auto none = err_of(4, {"find", "item-delivery", "(1,1,0)"});
+  EXPECT_THAT(none, HasSubstr("no start state of 'item-delivery' teaches exactly (1,1,0)"));
+  EXPECT_EQ(json_of({"find", "item-delivery", "(1,1,0)"})["errors"][0]["id"], "E1111");
   ASSERT_EQ(run_kith({"find", "item-delivery", "(-1,0,2)", "-o", scratch / "world.toml"}).code, 0);
-  const auto again = run_kith({"find", scratch / "world.toml", "(-1,0,2)"});
-  EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_THAT(again.out, HasSubstr("World 0, start "));
+  EXPECT_THAT(out_of({"find", scratch / "world.toml", "(-1,0,2)"}), HasSubstr("World 0, start "));
   EXPECT_EQ(run_kith({"validate", scratch / "world.toml"}).code, 0);
 }
 
 TEST(FindCommand, WorksWhereNobodyKnowsWhatPeopleExpect) {
-  const auto rescue = run_kith({"find", "rescue-floor", "(0,0,-1,0,-1)"});
-  EXPECT_EQ(rescue.code, 0) << rescue.err;
-  EXPECT_THAT(rescue.out,
+  EXPECT_THAT(out_of({"find", "rescue-floor", "(0,0,-1,0,-1)"}),
               AllOf(HasSubstr("teaches exactly this: (0,0,-1,0,-1): a stair and a step together cost something\n"),
                     HasSubstr(": a stair and a step\ntogether cost something\n  #")));
-  const auto test = run_kith({"find", "navigation", "(0,-1,0,0,0,0,-2)", "--test", "--json"});
-  ASSERT_EQ(test.code, 0) << test.err;
-  const auto document = Json::parse(test.out);
+  const auto document = json_of({"find", "navigation", "(0,-1,0,0,0,0,-2)", "--test"});
   EXPECT_THAT(document.at("found").at("reason").get<std::string>(),
               HasSubstr(": crossing grass and 2 steps together cost "));
   expect_board(document, document["found"], document["found"].at("frames"));
@@ -208,28 +187,21 @@ TEST(FindCommand, WorksWhereNobodyKnowsWhatPeopleExpect) {
 
 TEST(FindCommand, GivesExpectationsWhereThereAreAny) {
   const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
-  const auto ran = run_kith({"find", cliff, "(0,-1)"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("teaches exactly this: (0,-1): a step costs something\n"));
-  const auto json = run_kith({"find", cliff, "(0,-1)", "--json"});
-  ASSERT_EQ(json.code, 0) << json.err;
-  const auto found = Json::parse(json.out).at("found");
+  EXPECT_THAT(out_of({"find", cliff, "(0,-1)"}), HasSubstr("teaches exactly this: (0,-1): a step costs something\n"));
+  const auto found = json_of({"find", cliff, "(0,-1)"}).at("found");
   EXPECT_THAT(found.at("reason").get<std::string>(), ::testing::EndsWith(": a step costs something"));
   EXPECT_TRUE(found.at("frames").at(0).contains("robot")) << "its table is drawn";
 }
 
 TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   const auto icy = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
-  const auto listed = run_kith({"find", icy, "--json"});
-  ASSERT_EQ(listed.code, 0) << listed.err;
-  const auto constraints = Json::parse(listed.out).at("constraints");
+  const auto constraints = json_of({"find", icy}).at("constraints");
   ASSERT_FALSE(constraints.empty());
   std::string normal;
   for (const auto& entry : constraints[0].at("normal")) normal += entry.dump() + " ";
-  const auto none = run_kith({"find", icy, normal});
-  EXPECT_EQ(none.code, 4);
-  EXPECT_THAT(none.err, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
-                              HasSubstr("`kith find DOMAIN` lists what can be isolated")));
+  const auto none = err_of(4, {"find", icy, normal});
+  EXPECT_THAT(none, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
+                          HasSubstr("`kith find DOMAIN` lists what can be isolated")));
   const Scratch scratch;
   const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
   const auto written = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml"});
@@ -244,8 +216,7 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
 TEST(Inspect, WritesPictures) {
   const Scratch scratch;
   const auto folder = scratch / "pictures";
-  const auto ran = run_kith({"inspect", "item-delivery", "--show", "map", "--svg", folder});
-  ASSERT_EQ(ran.code, 0) << ran.err;
+  expect_code(0, {"inspect", "item-delivery", "--show", "map", "--svg", folder});
   for (const std::string name : {"map", "policy", "bec", "coverage", "counterfactuals"}) {
     const auto text = text_of(folder + "/" + name + ".svg");
     EXPECT_THAT(text, AllOf(HasSubstr("<svg xmlns=\"http://www.w3.org/2000/svg\""), HasSubstr("<title>"),
@@ -258,22 +229,18 @@ TEST(Inspect, WritesPictures) {
 }
 
 TEST(AskCommand, AnswersInTextAndJson) {
-  const auto ran = run_kith({"ask", "item-delivery", "when", "does", "it", "recharge?"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Stopping at the charger happens in "), HasSubstr("it does not: ")));
-  const auto json = run_kith({"ask", "item-delivery", "when does it recharge?", "--json"});
-  ASSERT_EQ(json.code, 0) << json.err;
-  const auto document = Json::parse(json.out);
+  const auto ran = out_of({"ask", "item-delivery", "when", "does", "it", "recharge?"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("Stopping at the charger happens in "), HasSubstr("it does not: ")));
+  const auto document = json_of({"ask", "item-delivery", "when does it recharge?"});
   EXPECT_EQ(document.at("schema"), "kith.ask/1");
   EXPECT_EQ(document.at("question"), "When does it stop at the charger?");
   for (const auto& example : document.at("examples")) expect_board(document, example, example.at("frames"));
 }
 
 TEST(AskCommand, PointsAtWhatItDoesNotUnderstand) {
-  const auto ran = run_kith({"ask", "item-delivery", "when does it rechrge?"});
-  EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("question:1:14: error[E1103]: kith does not know the word 'rechrge'"),
-                             HasSubstr("did you mean 'recharge'?")));
+  const auto ran = err_of(3, {"ask", "item-delivery", "when does it rechrge?"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("question:1:14: error[E1103]: kith does not know the word 'rechrge'"),
+                         HasSubstr("did you mean 'recharge'?")));
 }
 
 TEST(Inspect, DrawsEveryCellByItsOwnSymbol) {
@@ -286,9 +253,7 @@ TEST(Init, WritesWhatRunsAsItIs) {
     SCOPED_TRACE(name);
     const Scratch scratch;
     const auto folder = scratch / "new";
-    const auto ran = run_kith({"init", folder, "--template", name});
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_THAT(ran.out, HasSubstr("wrote domain.toml, study.toml, README.md"));
+    EXPECT_THAT(out_of({"init", folder, "--template", name}), HasSubstr("wrote domain.toml, study.toml, README.md"));
     EXPECT_EQ(std::filesystem::exists(folder + "/consent.md"), name == "human-study");
     const auto domain = folder + "/domain.toml";
     const auto study = folder + "/study.toml";
@@ -298,8 +263,7 @@ TEST(Init, WritesWhatRunsAsItIs) {
     EXPECT_EQ(valid.err.find("W1602") != std::string::npos, name == "human-study") << valid.err;
     EXPECT_EQ(run_kith({"validate", "--strict", domain, study}).code, name == "human-study" ? 3 : 0);
     EXPECT_EQ(run_kith({"lesson", domain}).code, 0);
-    const auto taught = run_kith({"study", study, "-o", scratch / "results", "--set", "replicates=1", "--quiet"});
-    EXPECT_EQ(taught.code, 0) << taught.err;
+    expect_code(0, {"study", study, "-o", scratch / "results", "--set", "replicates=1", "--quiet"});
     EXPECT_TRUE(std::filesystem::exists(scratch / "results/tables/teams.csv"));
   }
 }
@@ -350,16 +314,14 @@ TEST(Texts, FitEightyColumns) {
     commands.push_back({"help", name});
   }
   for (const auto& command : commands) {
-    const auto ran = run_kith(command);
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    std::istringstream lines{ran.out};
+    std::istringstream lines{out_of(command)};
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << command.front() << ": " << line;
   }
 }
 
 // Every candidate start is another one, and where everything is can be told.
 TEST(InspectJson, TellsStartsApartAndGivesEveryMap) {
-  const auto document = Json::parse(run_kith({"inspect", "item-delivery", "--show", "demos", "--json"}).out);
+  const auto document = json_of({"inspect", "item-delivery", "--show", "demos"});
   std::set<std::string> pictures;
   for (const auto& one : document.at("demos")) {
     auto start = one.at("start");
@@ -374,7 +336,7 @@ TEST(InspectJson, TellsStartsApartAndGivesEveryMap) {
   const auto& map = document.at("maps").at(63);
   const auto& first = document.at("demos").at(0).at("start").at("robot");
   EXPECT_LE(first.at(1), map.size());
-  const auto lesson = Json::parse(run_kith({"lesson", "item-delivery", "--json"}).out);
+  const auto lesson = json_of({"lesson", "item-delivery"});
   const auto& shown = lesson.at("components").at(0).at("demonstrations").at(0);
   const auto& frame = shown.at("frames").at(0);
   bool found = false;
@@ -389,9 +351,7 @@ TEST(InspectJson, TellsStartsApartAndGivesEveryMap) {
 TEST(Init, NeverReplacesAFile) {
   const Scratch scratch;
   std::ofstream{scratch / "README.md"} << "mine";
-  const auto ran = run_kith({"init", scratch / ""});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("README.md exists already"));
+  EXPECT_THAT(err_of(2, {"init", scratch / ""}), HasSubstr("README.md exists already"));
   EXPECT_EQ(text_of(scratch / "README.md"), "mine");
   EXPECT_FALSE(std::filesystem::exists(scratch / "domain.toml"));
   EXPECT_EQ(run_kith({"init", scratch / "README.md/below"}).code, 5);

@@ -17,9 +17,8 @@ TEST(FirstHour, WorldsGoByTheirNames) {
               HasSubstr("Map of world 2 (visiting hours)"));
   EXPECT_EQ(run_kith({"inspect", kHospital, "--mdp", "Visiting Hours"}).out,
             run_kith({"inspect", kHospital, "--mdp", "2"}).out);
-  const auto wrong = run_kith({"inspect", kHospital, "--mdp", "noon"});
-  EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, AllOf(HasSubstr("no world 'noon'"), HasSubstr("night, morning round")));
+  const auto wrong = err_of(2, {"inspect", kHospital, "--mdp", "noon"});
+  EXPECT_THAT(wrong, AllOf(HasSubstr("no world 'noon'"), HasSubstr("night, morning round")));
   EXPECT_THAT(run_kith({"teach", kHospital, "--group", "NP"}).out, HasSubstr("world "));
   EXPECT_THAT(run_kith({"inspect", kHospital, "--json"}).out, HasSubstr("morning round"));
 }
@@ -35,8 +34,7 @@ TEST(FirstHour, AnExampleOfTrialsCanBeFitted) {
   const Scratch scratch;
   const auto folder = scratch / "answers";
   EXPECT_THAT(run_kith({"init", folder, "--trials"}).out, HasSubstr("trials.csv"));
-  const auto ran = run_kith({"fit", folder + "/trials.csv", "--folds", "0", "--replicates", "1"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
+  expect_code(0, {"fit", folder + "/trials.csv", "--folds", "0", "--replicates", "1"});
 }
 
 TEST(FirstHour, MessagesShowTheMend) {

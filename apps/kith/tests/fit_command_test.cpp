@@ -12,9 +12,8 @@ class FitCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     scratch_ = std::make_unique<Scratch>();
-    const auto ran = run_kith({"study", "quick", "-o", *scratch_ / "run", "-q", "--set", "learner.N.particles=100",
-                               "--set", "learner.P.particles=100"});
-    ASSERT_EQ(ran.code, 0) << ran.err;
+    expect_code(0, {"study", "quick", "-o", *scratch_ / "run", "-q", "--set", "learner.N.particles=100", "--set",
+                    "learner.P.particles=100"});
   }
   static void TearDownTestSuite() { scratch_.reset(); }
 
@@ -76,9 +75,7 @@ TEST_F(FitCommand, ExitsWithTheCodeOfTheFault) {
   EXPECT_EQ(run_kith({"fit"}).code, 2);
   EXPECT_EQ(run_kith({"fit", scratch / "nowhere"}).code, 5);
   std::filesystem::create_directory(scratch / "empty");
-  const auto empty = run_kith({"fit", scratch / "empty"});
-  EXPECT_EQ(empty.code, 3);
-  EXPECT_THAT(empty.err, HasSubstr("error[E0703]"));
+  EXPECT_THAT(err_of(3, {"fit", scratch / "empty"}), HasSubstr("error[E0703]"));
   std::ofstream{scratch / "t.csv"} << "user_id,domain,interaction_type,is_opt_response\na,at,final test,1\n";
   const auto few = run_kith({"fit", scratch / "t.csv"});
   EXPECT_EQ(few.code, 4);

@@ -15,17 +15,14 @@ const std::string kPolicy = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossin
 TEST(InferCommand, WritesADomainThatEverythingElseTeaches) {
   const Scratch scratch;
   const auto file = scratch / "explained.toml";
-  const auto found = run_kith({"infer", kDomain, "--policy", kPolicy, "-o", file});
-  ASSERT_EQ(found.code, 0) << found.err;
-  EXPECT_THAT(found.out, AllOf(HasSubstr("explain 97 % of what the robot does"),
-                               HasSubstr("in the snow at d3: it does left"), HasSubstr("would have to tell apart")));
+  const auto found = out_of({"infer", kDomain, "--policy", kPolicy, "-o", file});
+  EXPECT_THAT(found, AllOf(HasSubstr("explain 97 % of what the robot does"),
+                           HasSubstr("in the snow at d3: it does left"), HasSubstr("would have to tell apart")));
   EXPECT_THAT(run_kith({"validate", file}).out, HasSubstr("39 start states"));
   for (const auto& command : {std::vector<std::string>{"inspect", file},
                               {"lesson", file},
                               {"teach", file, "--group", "NP", "--strategy", "joint"}}) {
-    const auto said = run_kith(command);
-    EXPECT_EQ(said.code, 0) << said.err;
-    EXPECT_THAT(said.out, HasSubstr("explain 97 % of what the robot does"));
+    EXPECT_THAT(out_of(command), HasSubstr("explain 97 % of what the robot does"));
   }
   const auto again = run_kith({"infer", kDomain, "--policy", kPolicy, "-o", file});
   EXPECT_EQ(again.code, 2) << "the file is there";
@@ -37,20 +34,15 @@ TEST(InferCommand, TakesADomainWithoutARewardAsValidateSays) {
   std::string text{std::istreambuf_iterator<char>{file}, {}};
   const auto at = text.find("[reward]");
   ASSERT_NE(at, std::string::npos);
-  const auto misspelt = run_kith({"validate", "-"}, {.input = std::string{text}.insert(at + 7, "s")});
-  EXPECT_EQ(misspelt.code, 3);
-  EXPECT_THAT(misspelt.err, AllOf(HasSubstr("did you mean 'reward'?"), Not(HasSubstr("E0109"))));
+  const auto misspelt = err_of(3, {"validate", "-"}, {.input = std::string{text}.insert(at + 7, "s")});
+  EXPECT_THAT(misspelt, AllOf(HasSubstr("did you mean 'reward'?"), Not(HasSubstr("E0109"))));
   text.erase(at, text.find('[', at + 1) - at);
-  const auto open = run_kith({"validate", "-"}, {.input = text});
-  EXPECT_EQ(open.code, 0) << open.err;
-  EXPECT_THAT(open.out, HasSubstr("only for kith infer"));
+  EXPECT_THAT(out_of({"validate", "-"}, {.input = text}), HasSubstr("only for kith infer"));
   EXPECT_EQ(run_kith({"inspect", "-"}, {.input = text}).code, 3);
 }
 
 TEST(InferCommand, SaysAllAsJson) {
-  const auto found = run_kith({"infer", kDomain, "--policy", kPolicy, "--json"});
-  ASSERT_EQ(found.code, 0) << found.err;
-  const auto document = Json::parse(found.out);
+  const auto document = json_of({"infer", kDomain, "--policy", kPolicy});
   EXPECT_EQ(document.at("schema"), "kith.infer/1");
   EXPECT_NEAR(document.at("share").get<double>(), 44.0 / 45.0, 1e-12);
   EXPECT_EQ(document.at("unexplained").size(), 1u);

@@ -16,10 +16,7 @@ Words operator+(Words words, const Words& more) {
 
 const Words kSwapped{"--set", "design.strategies=[\"common\",\"baseline\"]"};
 
-void must_run(const Words& words) {
-  const auto ran = run_kith(words);
-  ASSERT_EQ(ran.code, 0) << ran.err;
-}
+void must_run(const Words& words) { expect_code(0, words); }
 
 // Flips a bit inside the record of some team of a journal that is in one file.
 void flip_a_bit(const fs::path& journal) {
@@ -47,9 +44,8 @@ TEST(Integrity, OfAMergeWithADamagedRecord) {
   for (const std::string index : {"1", "2"}) must_run(small_study(scratch / index) + Words{"--shard", index + "/2"});
   flip_a_bit(scratch / "2/study.sqlite");
   const Words merge{"merge", scratch / "1", scratch / "2", "-o", scratch / "merged"};
-  const auto refused = run_kith(merge);
-  EXPECT_EQ(refused.code, 7);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("error[E0637]"), HasSubstr("shard 2/2"), HasSubstr("the record of team ")));
+  const auto refused = err_of(7, merge);
+  EXPECT_THAT(refused, AllOf(HasSubstr("error[E0637]"), HasSubstr("shard 2/2"), HasSubstr("the record of team ")));
   EXPECT_FALSE(fs::exists(scratch / "merged"));
 
   const auto partial = run_kith(merge + Words{"--allow-partial"});

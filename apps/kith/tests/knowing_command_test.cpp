@@ -9,17 +9,14 @@ namespace {
 std::string updated(const std::string& name) { return std::string{KITH_SOURCE_DIR} + "/tests/updates/" + name; }
 
 TEST(KnowingCommand, PrintsWhatIsNewAndWhatIsNot) {
-  const auto ran = run_kith({"lesson", updated("rubble_free.toml"), "--knowing", "item-delivery"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("The robot has been updated. Now crossing rubble is better than 2 steps."));
-  EXPECT_THAT(ran.out, HasSubstr("it is as before the update"));
-  const auto document =
-      Json::parse(run_kith({"lesson", updated("rubble_free.toml"), "--knowing", "item-delivery", "--json"}).out);
+  const auto ran = out_of({"lesson", updated("rubble_free.toml"), "--knowing", "item-delivery"});
+  EXPECT_THAT(ran, HasSubstr("The robot has been updated. Now crossing rubble is better than 2 steps."));
+  EXPECT_THAT(ran, HasSubstr("it is as before the update"));
+  const auto document = json_of({"lesson", updated("rubble_free.toml"), "--knowing", "item-delivery"});
   EXPECT_EQ(document.at("update").at("now"), Json::array({"crossing rubble is better than 2 steps"}));
 
-  const auto same = run_kith({"lesson", "item-delivery", "--knowing", updated("unchanged.toml")});
-  EXPECT_EQ(same.code, 0) << same.err;
-  EXPECT_THAT(same.out, AllOf(HasSubstr("it decides as before"), Not(HasSubstr("Demonstration"))));
+  const auto same = out_of({"lesson", "item-delivery", "--knowing", updated("unchanged.toml")});
+  EXPECT_THAT(same, AllOf(HasSubstr("it decides as before"), Not(HasSubstr("Demonstration"))));
 
   const auto other = run_kith({"lesson", "item-delivery", "--knowing", "two-goals"});
   EXPECT_EQ(other.code, 2);
@@ -34,13 +31,12 @@ TEST(KnowingCommand, SaysWhoStillBelievesInTheOlderRobot) {
                                "domain=\"" + updated("rubble_free.toml") + "\"", "--set",
                                "learner.N.knowing=\"item-delivery\"", "--set", "learner.P.knowing=\"item-delivery\""});
   ASSERT_EQ(study.code, 0) << study.err;
-  const auto told = run_kith({"audit", run});
-  EXPECT_EQ(told.code, 0) << told.err;
-  EXPECT_THAT(told.out, HasSubstr("to believe in the robot as it was before the update"));
-  EXPECT_THAT(told.out, HasSubstr("as it was before the update with probability"));
+  const auto told = out_of({"audit", run});
+  EXPECT_THAT(told, HasSubstr("to believe in the robot as it was before the update"));
+  EXPECT_THAT(told, HasSubstr("as it was before the update with probability"));
   // The study says what people knew; so can whoever asks.
-  EXPECT_EQ(run_kith({"audit", run, "--knowing", "item-delivery"}).out, told.out);
-  const auto document = Json::parse(run_kith({"audit", run, "--json"}).out);
+  EXPECT_EQ(run_kith({"audit", run, "--knowing", "item-delivery"}).out, told);
+  const auto document = json_of({"audit", run});
   for (const auto& person : document.at("people")) {
     EXPECT_GE(person.at("believes_older"), 0.0);
     EXPECT_LE(person.at("believes_older"), 1.0);

@@ -21,10 +21,9 @@ TEST(Limits, ACurriculumOfALargeMapSaysHowMuchMemoryItNeeds) {
   const Scratch scratch;
   std::ofstream{scratch / "map.toml"} << large_map(150);
   const std::vector<std::string> command{"lesson", scratch / "map.toml"};
-  const auto ran = run_kith(command, memory("100M"));
-  EXPECT_EQ(ran.code, 4);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("teaching the 22499 states of 'large' needs about 370 MB of memory; "),
-                             HasSubstr("[family] starts = 1000")));
+  const auto ran = err_of(4, command, memory("100M"));
+  EXPECT_THAT(ran, AllOf(HasSubstr("teaching the 22499 states of 'large' needs about 370 MB of memory; "),
+                         HasSubstr("[family] starts = 1000")));
   auto with_json = command;
   with_json.emplace_back("--json");
   const auto document = Json::parse(run_kith(with_json, memory("100M")).out);
@@ -79,8 +78,7 @@ TEST(Limits, OfTheStackAreKept) {
     const rlimit stack{128 * 1024, 128 * 1024};
     setrlimit(RLIMIT_STACK, &stack);
   };
-  const auto report = run_kith({"report", folder, "--json"}, small);
-  EXPECT_EQ(report.code, 0) << report.err;
+  expect_code(0, {"report", folder, "--json"}, small);
   EXPECT_EQ(run_kith({"analyze", folder, "--json"}, small).code, 0);
 }
 

@@ -48,8 +48,7 @@ TEST(Messages, TakeAnUnknownStudyLikeAnUnknownDomain) {
 }
 
 TEST(Messages, HaveNullInJsonForAnUnknownPlace) {
-  const auto error =
-      Json::parse(run_kith({"inspect", "item-delivery", "--mdp", "64", "--json"}).out).at("errors").at(0);
+  const auto error = json_of({"inspect", "item-delivery", "--mdp", "64"}).at("errors").at(0);
   for (const auto* key : {"file", "line", "column"}) EXPECT_TRUE(error.at(key).is_null()) << key;
 }
 
@@ -86,7 +85,7 @@ TEST(Inspect, ShowsADomainThatCannotBeTaught) {
   EXPECT_THAT(ran.out, AllOf(HasSubstr("Map of world 0"), HasSubstr("Reward"),
                              HasSubstr("The robot's policy in world 0"), HasSubstr("from the start: right x3")));
   EXPECT_THAT(ran.err, HasSubstr("with a single feature there is nothing to weigh"));
-  const auto document = Json::parse(run_kith({"inspect", scratch / "d.toml", "--json"}).out);
+  const auto document = json_of({"inspect", scratch / "d.toml"});
   EXPECT_EQ(document.at("schema"), "kith.inspect/1");
   EXPECT_FALSE(document.contains("bec"));
 }

@@ -28,9 +28,8 @@ class Model : public ::testing::Test {
 };
 
 TEST_F(Model, IsValidAndShown) {
-  const auto checked = run_kith({"validate", scratch_ / "icy_crossing.toml"});
-  EXPECT_EQ(checked.code, 0) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("domain 'icy-crossing' is valid (3 worlds, 45 start states)"));
+  const auto checked = out_of({"validate", scratch_ / "icy_crossing.toml"});
+  EXPECT_THAT(checked, HasSubstr("domain 'icy-crossing' is valid (3 worlds, 45 start states)"));
   const auto shown = run_kith({"inspect", scratch_ / "icy_crossing.toml", "--show", "map,policy"});
   if (shown.code == 0) {
     EXPECT_THAT(shown.out,
@@ -40,11 +39,9 @@ TEST_F(Model, IsValidAndShown) {
 
 TEST_F(Model, IsAskedAboutWithItsChances) {
   const std::vector<std::string> question{"ask", scratch_ / "icy_crossing.toml", "why right at 'a1' in world 0?"};
-  const auto said = run_kith(question);
-  ASSERT_EQ(said.code, 0) << said.err;
-  EXPECT_THAT(said.out, AllOf(HasSubstr("the robot: right x5 (most likely path, 66 % chance)"),
-                              HasSubstr("falling into the water in "), HasSubstr(" of 10 runs"),
-                              HasSubstr("otherwise: down x2, right x5, up x2\n")));
+  EXPECT_THAT(out_of(question), AllOf(HasSubstr("the robot: right x5 (most likely path, 66 % chance)"),
+                                      HasSubstr("falling into the water in "), HasSubstr(" of 10 runs"),
+                                      HasSubstr("otherwise: down x2, right x5, up x2\n")));
   auto as_json = question;
   as_json.emplace_back("--json");
   const auto document = Json::parse(run_kith(as_json).out);
@@ -56,7 +53,7 @@ TEST_F(Model, IsAskedAboutWithItsChances) {
     EXPECT_EQ(run.at("frames").at(0).at("robot"), example.at("start").at("robot"));
     EXPECT_TRUE(run.at("ended").is_boolean());
   }
-  const auto certain = Json::parse(run_kith({"ask", "item-delivery", "when does it recharge?", "--json"}).out);
+  const auto certain = json_of({"ask", "item-delivery", "when does it recharge?"});
   EXPECT_TRUE(certain.at("examples").at(0).at("chance").is_null());
   EXPECT_TRUE(certain.at("examples").at(0).at("runs").is_null());
 }
@@ -114,20 +111,18 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
 TEST_F(Model, IsInfeasibleWhereAStartCannotEnd) {
   edit("icy_crossing_transitions.csv", "firm ice,a1,down,a2,1,0,0,1\nfirm ice,a1,right,b1,1,0,0,1\n",
        "firm ice,a1,down,a1,1,0,0,1\n");
-  const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
-  EXPECT_EQ(ran.code, 4) << ran.err;
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing_states.csv:2:1: error[E0260]"),
-                             HasSubstr("an end cannot be reached with certainty"), HasSubstr("terminal")));
+  const auto ran = err_of(4, {"validate", scratch_ / "icy_crossing.toml"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("icy_crossing_states.csv:2:1: error[E0260]"),
+                         HasSubstr("an end cannot be reached with certainty"), HasSubstr("terminal")));
 }
 
 TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
   edit("icy_crossing.toml", "discount  = 0.95", "discount  = 1.0");
   edit("icy_crossing.toml", "step = -1 }\n\n[prior]", "step = 1 }\n\n[prior]");
   edit("icy_crossing.toml", "{ step = -1 } ]", "{ step = 1 } ]");
-  const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
-  EXPECT_EQ(ran.code, 4) << ran.err;
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing.toml:39:11: error[E0323]"),
-                             HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
+  const auto ran = err_of(4, {"validate", scratch_ / "icy_crossing.toml"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("icy_crossing.toml:39:11: error[E0323]"),
+                         HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
 }
 
 // Of PRISM and Gymnasium, as a file of theirs and as a domain file that names one.
@@ -145,9 +140,8 @@ TEST_F(Model, OfAnotherProgramIsConvertedFirst) {
     }
   }
   edit("icy_crossing.toml", "\"csv\"", "\"gym-json\"");
-  const auto ran = run_kith({"inspect", scratch_ / "icy_crossing.toml"});
-  EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, HasSubstr("python -m kith.convert " + (scratch_ / "icy_crossing.toml") + " -o NEW.toml"));
+  const auto ran = err_of(3, {"inspect", scratch_ / "icy_crossing.toml"});
+  EXPECT_THAT(ran, HasSubstr("python -m kith.convert " + (scratch_ / "icy_crossing.toml") + " -o NEW.toml"));
 }
 
 // The same without its picture.
@@ -165,26 +159,23 @@ class Unpictured : public Model {
 };
 
 TEST_F(Unpictured, IsTaughtInWords) {
-  const auto ran = run_kith({"teach", scratch_ / "icy_crossing.toml", "--group", "N", "--seed", "1"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("lists of actions and states"), HasSubstr("-> ")));
-  EXPECT_THAT(ran.out, Not(HasSubstr("bare map")));
-  const auto json = Json::parse(run_kith({"inspect", scratch_ / "icy_crossing.toml", "--show", "demos", "--json"}).out);
+  const auto ran = out_of({"teach", scratch_ / "icy_crossing.toml", "--group", "N", "--seed", "1"});
+  EXPECT_THAT(ran, AllOf(HasSubstr("lists of actions and states"), HasSubstr("-> ")));
+  EXPECT_THAT(ran, Not(HasSubstr("bare map")));
+  const auto json = json_of({"inspect", scratch_ / "icy_crossing.toml", "--show", "demos"});
   EXPECT_THAT(json.at("demos").at(0).at("start").at("name").get<std::string>(), HasSubstr("at a"));
 }
 
 TEST_F(Unpictured, IsStudiedResumedAndVerifiedFromItsFolder) {
   const std::vector<std::string> study{"study", scratch_ / "study.toml", "-o", scratch_ / "run",
                                        "--set", "replicates=2"};
-  const auto first = run_kith(study);
-  ASSERT_EQ(first.code, 0) << first.err;
+  expect_code(0, study);
   const std::string states = "icy_crossing_states.csv";
   EXPECT_EQ(text_of(scratch_ / ("run/inputs/" + states)), text_of(scratch_ / states));
   EXPECT_THAT(text_of(scratch_ / "run/manifest.json"), HasSubstr("\"" + states + "\": \""));
   EXPECT_EQ(run_kith(study).code, 0);  // all teams are there
   std::filesystem::remove(scratch_ / states);
-  const auto verified = run_kith({"verify", scratch_ / "run"});
-  EXPECT_EQ(verified.code, 0) << verified.err;
+  expect_code(0, {"verify", scratch_ / "run"});
   EXPECT_EQ(run_kith({"teach", "--from", scratch_ / "run", "--team", "1"}).code, 0);
 }
 
@@ -193,9 +184,7 @@ TEST_F(Unpictured, IsAnotherStudyWithAnotherModel) {
                                        "--set", "replicates=2"};
   ASSERT_EQ(run_kith(study).code, 0);
   edit("icy_crossing_states.csv", "on the bank", "at the bank");
-  const auto ran = run_kith(study);
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("different study"));
+  EXPECT_THAT(err_of(2, study), HasSubstr("different study"));
 }
 
 }  // namespace

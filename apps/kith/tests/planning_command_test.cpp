@@ -27,9 +27,7 @@ Ran run_small(std::vector<std::string> arguments) {
 }
 
 TEST(PowerCommand, RefusesAStudyWhoseKeysVary) {
-  const auto ran = run_kith({"power", "quick", "--set", "design.vary={\"stop.max_periods\"=[5,9]}"});
-  EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, HasSubstr("E0812"));
+  EXPECT_THAT(err_of(3, {"power", "quick", "--set", "design.vary={\"stop.max_periods\"=[5,9]}"}), HasSubstr("E0812"));
 }
 
 TEST(PowerCommand, DrawsACurveAndPrintsADocument) {
@@ -134,7 +132,7 @@ TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
                           HasSubstr("4 teams per cell."), HasSubstr("| periods: group - baseline | difference ")));
   const auto folder = scratch / "run";
   ASSERT_EQ(run_small({"study", "quick", "-o", folder, "-q", "--set", "replicates=4"}).code, 0);
-  const auto document = Json::parse(run_kith({"analyze", folder, "--json"}).out);
+  const auto document = json_of({"analyze", folder});
   for (const auto& finding : document.at("findings")) {
     if (finding.at("id") == "demonstrations") continue;
     EXPECT_THAT(plan, HasSubstr("* Model: `" + finding.at("model").get<std::string>() + "`"));
@@ -150,7 +148,7 @@ TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
   EXPECT_THAT(text_of(file), HasSubstr("**after the study was run**: `" + folder + "` holds a run of these inputs"));
   const auto pool = scratch / "pool";
   ASSERT_EQ(run_small({"study", "quick", "-o", pool, "-q", "--set", "replicates=8"}).code, 0);
-  const auto report = Json::parse(run_kith({"report", pool, "--json"}).out);
+  const auto report = json_of({"report", pool});
   EXPECT_THAT(late.out, ::testing::Not(HasSubstr("\"mean\":" + mean_periods(report, "baseline") + ",")));
   // What was planned is proved to be what was run.
   const auto manifest = Json::parse(text_of(folder + "/manifest.json"));
@@ -201,9 +199,9 @@ correct_gain = { half_normal = 0.052 }
   EXPECT_GT(plan.find("Does the strategy", plan.find("## Exploratory analyses")), plan.find("## Exploratory analyses"));
   const auto folder = scratch / "run";
   ASSERT_EQ(run_small({"study", study, "-o", folder, "-q"}).code, 0);
-  const auto document = Json::parse(run_kith({"analyze", folder, "--json"}).out);
+  const auto document = json_of({"analyze", folder});
   EXPECT_EQ(document.at("findings").at(0).at("id"), "primary");
-  const auto report = Json::parse(run_kith({"report", folder, "--json"}).out);
+  const auto report = json_of({"report", folder});
   EXPECT_EQ(report.at("findings").at(0).at("id"), "primary");
   EXPECT_EQ(report.at("overview").at("answers").at(0).at("finding"), "primary");  // in the first screen
 }

@@ -52,9 +52,8 @@ TEST_F(ReportCommand, PrintsTheDocumentInstead) {
 
 TEST_F(ReportCommand, FailsWithTheCodeAndTheIdOfTheFault) {
   EXPECT_EQ(run_kith({"report"}).code, 2);
-  const auto missing = run_kith({"report", *scratch_ / "nowhere"});
-  EXPECT_EQ(missing.code, 5);
-  EXPECT_THAT(missing.err, AllOf(HasSubstr("nowhere: error[E0601]: "), HasSubstr("kith study STUDY -o DIR")));
+  const auto missing = err_of(5, {"report", *scratch_ / "nowhere"});
+  EXPECT_THAT(missing, AllOf(HasSubstr("nowhere: error[E0601]: "), HasSubstr("kith study STUDY -o DIR")));
   std::filesystem::create_directories(*scratch_ / "empty");
   const auto empty = run_kith({"report", *scratch_ / "empty", "--json"});
   EXPECT_EQ(empty.code, 3);

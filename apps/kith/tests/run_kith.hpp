@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -106,6 +107,26 @@ class Scratch {
   if (with.out_to.empty()) ran.out = text_of(out);
   ran.err = text_of(scratch / "err");
   return ran;
+}
+inline void expect_code(int code, const std::vector<std::string>& arguments, const RunWith& with = {}) {
+  const auto ran = run_kith(arguments, with);
+  EXPECT_EQ(ran.code, code) << ran.err;
+}
+/// What a run prints that is to succeed.
+[[nodiscard]] inline std::string out_of(const std::vector<std::string>& arguments, const RunWith& with = {}) {
+  const auto ran = run_kith(arguments, with);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  return ran.out;
+}
+[[nodiscard]] inline Json json_of(std::vector<std::string> arguments) {
+  arguments.emplace_back("--json");
+  return Json::parse(out_of(arguments));
+}
+/// What a run says that is to fail with this code.
+[[nodiscard]] inline std::string err_of(int code, const std::vector<std::string>& arguments, const RunWith& with = {}) {
+  const auto ran = run_kith(arguments, with);
+  EXPECT_EQ(ran.code, code) << ran.out << ran.err;
+  return ran.err;
 }
 
 }  // namespace kith::testing

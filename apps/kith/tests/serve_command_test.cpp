@@ -169,12 +169,10 @@ TEST(ServeCommand, RefusesAFolderOrAPortInUse) {
   Serving first{{"--demo", "--no-browser", "--port", "0", "-o", scratch / "live"}};
   const auto links = first.links();
   ASSERT_TRUE(links.has_value()) << first.log();
-  const auto folder = run_kith({"serve", "--demo", "--no-browser", "--port", "0", "-o", scratch / "live"});
-  EXPECT_EQ(folder.code, 8) << folder.err;
+  expect_code(8, {"serve", "--demo", "--no-browser", "--port", "0", "-o", scratch / "live"});
   const auto port = links->at("port").dump();
-  const auto busy = run_kith({"serve", "--demo", "--no-browser", "--port", port, "-o", scratch / "other"});
-  EXPECT_EQ(busy.code, 8) << busy.err;
-  EXPECT_THAT(busy.err, HasSubstr("port " + port + " of 127.0.0.1 is in use"));
+  const auto busy = err_of(8, {"serve", "--demo", "--no-browser", "--port", port, "-o", scratch / "other"});
+  EXPECT_THAT(busy, HasSubstr("port " + port + " of 127.0.0.1 is in use"));
   EXPECT_EQ(first.stop(SIGINT), 0);
 }
 

@@ -26,27 +26,21 @@ class SessionCommand : public ::testing::Test {
 };
 
 TEST_F(SessionCommand, ListsAndShowsRooms) {
-  const auto list = run_kith({"session", "list", folder()});
-  EXPECT_EQ(list.code, 0) << list.err;
+  const auto list = out_of({"session", "list", folder()});
   // Of r1 one person has joined, of r2 nobody; nothing was taught.
-  EXPECT_THAT(list.out, ContainsRegex("\nr1 +common +NP +1 +0 +0 +0 +2023"));
-  EXPECT_THAT(list.out, ContainsRegex("\nr2 +common +NP +0 +0 +0 +0 +- "));
+  EXPECT_THAT(list, ContainsRegex("\nr1 +common +NP +1 +0 +0 +0 +2023"));
+  EXPECT_THAT(list, ContainsRegex("\nr2 +common +NP +0 +0 +0 +0 +- "));
   const auto shown = run_kith({"session", "show", folder(), "--room", "AAAAAA"}).out;
   EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 2) << shown;
-  const auto several = run_kith({"session", "show", folder()});
-  EXPECT_EQ(several.code, 2);
-  EXPECT_THAT(several.err, HasSubstr("has 2 rooms; say which one with --room ID"));
-  const auto none = run_kith({"session", "show", folder(), "--room", "r9"});
-  EXPECT_EQ(none.code, 3);
-  EXPECT_THAT(none.err, HasSubstr("E1618"));
+  EXPECT_THAT(err_of(2, {"session", "show", folder()}), HasSubstr("has 2 rooms; say which one with --room ID"));
+  EXPECT_THAT(err_of(3, {"session", "show", folder(), "--room", "r9"}), HasSubstr("E1618"));
 }
 
 TEST_F(SessionCommand, ShowsTheOnlyRoom) {
   make_session(scratch_ / "one", 1);
-  const auto shown = run_kith({"session", "show", scratch_ / "one"});
-  EXPECT_EQ(shown.code, 0) << shown.err;
-  EXPECT_EQ(shown.out, run_kith({"session", "show", scratch_ / "one", "--room", "r1"}).out);
-  EXPECT_THAT(shown.out, HasSubstr("joined"));
+  const auto shown = out_of({"session", "show", scratch_ / "one"});
+  EXPECT_EQ(shown, run_kith({"session", "show", scratch_ / "one", "--room", "r1"}).out);
+  EXPECT_THAT(shown, HasSubstr("joined"));
   make_session(scratch_ / "none", 0);
   EXPECT_THAT(run_kith({"session", "show", scratch_ / "none"}).err, HasSubstr("has 0 rooms"));
 }
@@ -68,22 +62,16 @@ TEST_F(SessionCommand, ExportsTablesThatAreCompleteAndChecked) {
 
 TEST_F(SessionCommand, ExportsTablesThatCanBeReported) {
   ASSERT_EQ(run_kith({"session", "export", folder(), "-o", scratch_ / "tables"}).code, 0);
-  const auto ran = run_kith({"report", scratch_ / "tables", "--json"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  const auto document = Json::parse(ran.out);
+  const auto document = json_of({"report", scratch_ / "tables"});
   EXPECT_EQ(document["overview"]["teams"], 0) << "nobody was taught yet";
   EXPECT_EQ(document["domain"], "item-delivery");
   EXPECT_EQ(run_kith({"report", scratch_ / "tables"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "tables/report.html"));
-  const auto early = run_kith({"report", folder()});
-  EXPECT_EQ(early.code, 3);
-  EXPECT_THAT(early.err, HasSubstr("kith session export"));
+  EXPECT_THAT(err_of(3, {"report", folder()}), HasSubstr("kith session export"));
 }
 
 TEST_F(SessionCommand, ReplaysAndSaysWhatDiffers) {
-  const auto ran = run_kith({"session", "replay", folder()});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("all identical"));
+  EXPECT_THAT(out_of({"session", "replay", folder()}), HasSubstr("all identical"));
   {
     auto file = EventFile::open(folder(), EventFile::read(folder()).identity(), 0);
     StoreBatch batch;
@@ -95,9 +83,7 @@ TEST_F(SessionCommand, ReplaysAndSaysWhatDiffers) {
                             .json = R"({"test":0,"actions":[],"keys":[],"ms":1})"});
     file.write({&batch, 1});
   }
-  const auto wrong = run_kith({"session", "replay", folder()});
-  EXPECT_EQ(wrong.code, 7);
-  EXPECT_THAT(wrong.err, HasSubstr("E1614"));
+  EXPECT_THAT(err_of(7, {"session", "replay", folder()}), HasSubstr("E1614"));
 }
 
 TEST_F(SessionCommand, ErasesOnlyWhenTold) {
@@ -109,9 +95,7 @@ TEST_F(SessionCommand, ErasesOnlyWhenTold) {
   EXPECT_THAT(run_kith({"session", "redact", folder(), "--room", "r1", "--seat", "9", "--yes"}).err,
               HasSubstr("E1624"));
   const auto lock = FolderLock::try_acquire(folder());
-  const auto busy = run_kith({"session", "redact", folder(), "--yes"});
-  EXPECT_EQ(busy.code, 8);
-  EXPECT_THAT(busy.err, HasSubstr("E1610"));
+  EXPECT_THAT(err_of(8, {"session", "redact", folder(), "--yes"}), HasSubstr("E1610"));
 }
 
 TEST_F(SessionCommand, RecoversADamagedSession) {
@@ -125,18 +109,13 @@ TEST_F(SessionCommand, RecoversADamagedSession) {
     file.seekp((page.integer(0) - 1) * kSqlitePageSize);
     file << std::string(kSqlitePageSize, '\xA5');
   }
-  const auto list = run_kith({"session", "list", folder()});
-  EXPECT_EQ(list.code, 7);
-  EXPECT_THAT(list.err, HasSubstr("E1612"));
+  EXPECT_THAT(err_of(7, {"session", "list", folder()}), HasSubstr("E1612"));
   EXPECT_EQ(run_kith({"session", "salvage", folder()}).code, 2);
-  const auto ran = run_kith({"session", "salvage", folder(), "-o", scratch_ / "saved"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("2 events"));
+  EXPECT_THAT(out_of({"session", "salvage", folder(), "-o", scratch_ / "saved"}), HasSubstr("2 events"));
   EXPECT_EQ(run_kith({"session", "replay", scratch_ / "saved"}).code, 0);
   std::ofstream{path} << "this is no database any more";
-  const auto nothing = run_kith({"session", "salvage", folder(), "-o", scratch_ / "other"});
-  EXPECT_EQ(nothing.code, 7);
-  EXPECT_THAT(nothing.err, AllOf(HasSubstr("E1619"), HasSubstr("sqlite3 session.sqlite .recover")));
+  const auto nothing = err_of(7, {"session", "salvage", folder(), "-o", scratch_ / "other"});
+  EXPECT_THAT(nothing, AllOf(HasSubstr("E1619"), HasSubstr("sqlite3 session.sqlite .recover")));
 }
 
 TEST_F(SessionCommand, RefusesFoldersThatHoldNoSession) {

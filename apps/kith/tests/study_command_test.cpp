@@ -36,8 +36,7 @@ TEST(StudyCommand, GivesOtherTeamsForAnotherSeed) {
 TEST(StudyCommand, RunsAgainFromItsFrozenInputs) {
   const Scratch scratch;
   ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "a", "--set", "replicates=2"}).code, 0);
-  const auto again = run_kith({"study", scratch / "a/inputs/study.toml", "-o", scratch / "b"});
-  ASSERT_EQ(again.code, 0) << again.err;
+  expect_code(0, {"study", scratch / "a/inputs/study.toml", "-o", scratch / "b"});
   EXPECT_EQ(tables_in(scratch / "a"), tables_in(scratch / "b"));
 }
 
@@ -47,9 +46,7 @@ TEST(StudyCommand, KeepsTheResultsOfAnotherStudyUnlessTold) {
   const auto before = tables_in(scratch / "run");
   EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run"}).code, 0);
   EXPECT_EQ(tables_in(scratch / "run"), before);
-  const auto refused = run_kith({"study", "quick", "-o", scratch / "run", "--seed", "2"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("--yes"));
+  EXPECT_THAT(err_of(2, {"study", "quick", "-o", scratch / "run", "--seed", "2"}), HasSubstr("--yes"));
   EXPECT_EQ(tables_in(scratch / "run"), before);
   EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run", "--seed", "2", "--yes"}).code, 0);
   EXPECT_NE(tables_in(scratch / "run"), before);
@@ -58,14 +55,12 @@ TEST(StudyCommand, KeepsTheResultsOfAnotherStudyUnlessTold) {
 TEST(StudyCommand, CannotWriteBelowAFile) {
   const Scratch scratch;
   std::ofstream{scratch / "file"} << "x";
-  const auto ran = run_kith({"study", "quick", "-o", scratch / "file/run"});
-  EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, HasSubstr("file/run"));
+  EXPECT_THAT(err_of(5, {"study", "quick", "-o", scratch / "file/run"}), HasSubstr("file/run"));
 }
 
 TEST(StudyCommand, SummarizesInJson) {
   const Scratch scratch;
-  const auto document = Json::parse(run_kith({"study", "quick", "-o", scratch / "run", "--json"}).out);
+  const auto document = json_of({"study", "quick", "-o", scratch / "run"});
   EXPECT_EQ(document.at("schema"), "kith.study/1");
   EXPECT_EQ(document.at("teams"), 6);
   EXPECT_TRUE(document.at("seconds").is_number());
@@ -82,10 +77,9 @@ TEST(StudyCommand, SummarizesInJson) {
 
 TEST(StudyCommand, ShowsVariedKeysAsColumns) {
   const Scratch scratch;
-  const auto ran = run_kith({"study", "quick", "-o", scratch / "run", "--set",
-                             "design.vary={\"stop.max_periods\"=[1,2]}", "--set", "replicates=1", "-q"});
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("stop.max_periods"));
+  const auto ran = out_of({"study", "quick", "-o", scratch / "run", "--set", "design.vary={\"stop.max_periods\"=[1,2]}",
+                           "--set", "replicates=1", "-q"});
+  EXPECT_THAT(ran, HasSubstr("stop.max_periods"));
   EXPECT_THAT(tables_in(scratch / "run").at("teams.csv"), HasSubstr("composition,stop.max_periods,replicate,team"));
 }
 
@@ -100,9 +94,7 @@ TEST(StudyCommand, LeadsWithTheExamBeyondThreeFeatures) {
                                   "--set", "stop.max_periods=1",
                                   "-q"};
     for (auto& setting : more) args.insert(args.end(), {"--set", std::move(setting)});
-    const auto ran = run_kith(args);
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    return ran.out;
+    return out_of(args);
   };
   const std::string robot = "domain=\"rescue-floor\"";
   EXPECT_THAT(headed("period", {robot, "record.exam=\"period\""}),
@@ -166,7 +158,7 @@ TEST(TeachCommand, ReplaysATeamOfAStudy) {
   ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "run"}).code, 0);
   // Teams 1 to 3 are taught alone, 4 to 6 together.
   for (const std::string team : {"2", "5"}) {
-    const auto document = Json::parse(run_kith({"teach", "--from", scratch / "run", "--team", team, "--json"}).out);
+    const auto document = json_of({"teach", "--from", scratch / "run", "--team", team});
     EXPECT_EQ(document.at("schema"), "kith.teach/1");
     EXPECT_EQ(document.at("sessions").size(), team == "2" ? 2u : 1u);
     // The row of the same team says the same.

@@ -30,7 +30,7 @@ TEST(Survival, OfSignalsSavesWhatIsFinishedAndSaysHowToGoOn) {
                 AllOf(HasSubstr("interrupted after"), HasSubstr("are saved in"), HasSubstr("study quick -o")));
     EXPECT_THAT(text_of(scratch / "out"), IsEmpty());
     EXPECT_FALSE(fs::exists(scratch / "run/tables"));
-    const auto status = Json::parse(run_kith({"status", scratch / "run", "--json"}).out);
+    const auto status = json_of({"status", scratch / "run"});
     EXPECT_EQ(status.at("state"), "interrupted");
     EXPECT_GT(status.at("done"), 0);
     EXPECT_EQ(status.at("total"), 200'000);
@@ -45,10 +45,9 @@ TEST(Survival, OfASignalIsAnErrorDocumentInJson) {
       {"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json", "--json"}, {},
       scratch / "in", scratch / "out", scratch / "err");
   for (int i = 0; i < 3000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
-  EXPECT_EQ(Json::parse(run_kith({"status", scratch / "run", "--json"}).out).at("state"), "running");
-  const auto second = run_kith({"study", "quick", "-o", scratch / "run", "--set", "replicates=100000"});
-  EXPECT_EQ(second.code, 8);
-  EXPECT_THAT(second.err, HasSubstr("another process is writing to"));
+  EXPECT_EQ(json_of({"status", scratch / "run"}).at("state"), "running");
+  const auto second = err_of(8, {"study", "quick", "-o", scratch / "run", "--set", "replicates=100000"});
+  EXPECT_THAT(second, HasSubstr("another process is writing to"));
   kill(child, SIGINT);
   EXPECT_EQ(exit_code_of(child), 128 + SIGINT);
   const auto document = Json::parse(text_of(scratch / "out"));
@@ -85,9 +84,7 @@ TEST(Survival, OfADamagedJournalNamesItAndTheWayOut) {
   const auto folder = scratch / "run";
   ASSERT_EQ(run_kith(small_study(folder)).code, 0);
   std::ofstream{folder + "/study.sqlite"} << "this is no database";
-  const auto ran = run_kith(small_study(folder));
-  EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("study.sqlite .recover"), HasSubstr("--resume never")));
+  EXPECT_THAT(err_of(5, small_study(folder)), AllOf(HasSubstr("study.sqlite .recover"), HasSubstr("--resume never")));
   EXPECT_EQ(tables_in(folder), expected());
   auto anew = small_study(folder);
   anew.insert(anew.end(), {"--resume", "never"});
@@ -97,9 +94,8 @@ TEST(Survival, OfADamagedJournalNamesItAndTheWayOut) {
 
 TEST(Resume, IsRefusedWithNothingToResume) {
   const Scratch scratch;
-  const auto ran = run_kith({"study", "quick", "-o", scratch / "run", "--resume", "require"});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("nothing to resume"));
+  const auto ran = err_of(2, {"study", "quick", "-o", scratch / "run", "--resume", "require"});
+  EXPECT_THAT(ran, HasSubstr("nothing to resume"));
   EXPECT_FALSE(fs::exists(scratch / "run"));
 }
 
@@ -115,9 +111,8 @@ std::vector<std::string> failing_study(const std::string& folder) {
 
 TEST(Failures, StopTheRunWithTheAddressOfTheTeam) {
   const Scratch scratch;
-  const auto ran = run_kith(failing_study(scratch / "run"));
-  EXPECT_EQ(ran.code, 4) << ran.err;
-  EXPECT_THAT(ran.err, ::testing::ContainsRegex("team [0-9]+ \\(common, NP, replicate [0-9]+\\) failed: "));
+  const auto ran = err_of(4, failing_study(scratch / "run"));
+  EXPECT_THAT(ran, ::testing::ContainsRegex("team [0-9]+ \\(common, NP, replicate [0-9]+\\) failed: "));
   EXPECT_FALSE(fs::exists(scratch / "run/tables"));
 }
 
@@ -132,7 +127,7 @@ TEST(Failures, AreNamedAtTheEndIfTheRunIsToGoOn) {
   EXPECT_GT(failed, 0u);
   EXPECT_EQ(document.at("teams").get<std::size_t>() + failed, 100u);
   EXPECT_THAT(document.at("failed").at(0).get<std::string>(), HasSubstr("(common, NP, replicate "));
-  const auto status = Json::parse(run_kith({"status", scratch / "run", "--json"}).out);
+  const auto status = json_of({"status", scratch / "run"});
   EXPECT_EQ(status.at("state"), "failed");
   EXPECT_EQ(status.at("failed"), failed);
   EXPECT_EQ(status.at("failures").size(), failed);
@@ -152,9 +147,7 @@ TEST(VerifyCommand, FindsTheSameBytesOrSaysWhereTheyDiffer) {
   EXPECT_THAT(run_kith({"verify", scratch / "run"}).out,
               HasSubstr("reran " + std::to_string(kTeams) + " of " + std::to_string(kTeams) + " teams"));
   std::ofstream{scratch / "run/tables/teams.csv", std::ios::app} << "x\n";
-  const auto bad = run_kith({"verify", scratch / "run"});
-  EXPECT_EQ(bad.code, 7);
-  EXPECT_THAT(bad.err, AllOf(HasSubstr("tables/teams.csv"), HasSubstr("error[E0641]")));
+  EXPECT_THAT(err_of(7, {"verify", scratch / "run"}), AllOf(HasSubstr("tables/teams.csv"), HasSubstr("error[E0641]")));
   EXPECT_EQ(run_kith({"verify", scratch / "run", "--sample", "2"}).code, 2);
 }
 
@@ -164,20 +157,15 @@ TEST(MergeCommand, GivesTheBytesOfTheWholeStudy) {
   for (const std::string shard : {"3", "1", "2"}) {
     auto arguments = small_study(scratch / shard);
     arguments.insert(arguments.end(), {"--shard", shard + "/3"});
-    const auto ran = run_kith(arguments);
-    ASSERT_EQ(ran.code, 0) << ran.err;
+    expect_code(0, arguments);
     EXPECT_FALSE(fs::exists(fs::path{scratch / shard} / "tables"));
     merge.push_back(scratch / shard);
   }
-  const auto merged = run_kith(merge);
-  ASSERT_EQ(merged.code, 0) << merged.err;
-  EXPECT_THAT(merged.out, HasSubstr("all groups"));
+  EXPECT_THAT(out_of(merge), HasSubstr("all groups"));
   EXPECT_EQ(tables_in(scratch / "all"), expected());
   EXPECT_EQ(run_kith({"verify", scratch / "all"}).code, 0);
   merge.pop_back();
-  const auto refused = run_kith(merge);
-  EXPECT_EQ(refused.code, 4);
-  EXPECT_THAT(refused.err, HasSubstr("error[E0635]"));
+  EXPECT_THAT(err_of(4, merge), HasSubstr("error[E0635]"));
   EXPECT_EQ(run_kith({"merge", scratch / "1", "-o", scratch / "1"}).code, 2);
   EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "x", "--shard", "4/3"}).code, 2);
 }

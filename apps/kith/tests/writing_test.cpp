@@ -190,9 +190,7 @@ TEST_F(Writing, ReplacesNothingButAnExport) {
   now.erase("report.html");
   EXPECT_EQ(now, made);
   fs::remove(scratch / "out/SHA256SUMS");
-  const auto refused = run_kith(again);
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, ::testing::HasSubstr("no export of a session"));
+  EXPECT_THAT(err_of(2, again), ::testing::HasSubstr("no export of a session"));
 }
 
 }  // namespace
