@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 
@@ -11,6 +12,26 @@
 
 namespace kith::fuzzing {
 namespace {
+
+// Of mistakes that keep a text from being looked at any further: TOML, tables, worlds.
+constexpr std::array<std::string_view, 12> kSyntaxIds{"E0101", "E0102", "E0103", "E0104", "E0105", "E0501",
+                                                      "E0502", "E0503", "E0504", "E0508", "E0509", "E0512"};
+
+Outcome outcome_of(const std::vector<Diagnostic>& diagnostics) {
+  if (!has_errors(diagnostics)) return Outcome::kRead;
+  const bool malformed = std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
+    return std::find(kSyntaxIds.begin(), kSyntaxIds.end(), d.id) != kSyntaxIds.end();
+  });
+  return malformed ? Outcome::kMalformed : Outcome::kRefused;
+}
+
+std::size_t width_of(std::string_view input) {
+  return kForm.width == kByFirstByte ? Bytes{input}.dimension() : kForm.width;
+}
+
+HeadAndBody parts_of(std::string_view input) {
+  return kForm.head_lines > 0 ? behind_lines(input, kForm.head_lines) : behind_bytes(input, kForm.head_bytes);
+}
 
 // Line `number` of the text, without its end; nothing beyond the last.
 std::string_view line_of(std::string_view text, std::size_t number) {
@@ -44,19 +65,42 @@ HeadAndBody behind_lines(std::string_view input, std::size_t lines) {
   return behind_bytes(input, at);
 }
 
+std::string mutated(std::string_view input, Dice& dice) {
+  if (kForm.words == nullptr) return mutate_vectors(input, kForm.head_bytes, width_of(input), dice);
+  static const Vocabulary kVocabulary{kForm.words};
+  if (input.empty() || dice.one_in(kForm.bytes_one_in)) return mutate_bytes(input, dice);
+  const auto [head, body] = parts_of(input);
+  if (kForm.head_lines > 0 && dice.one_in(4)) return mutate_text(head, kVocabulary, dice) + std::string{body};
+  return std::string{head} + mutate_text(body, kVocabulary, dice);
+}
+
+std::string crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = parts_of(input);
+  const auto [other_head, other_body] = parts_of(other);
+  if (kForm.words != nullptr) {
+    if (kForm.head_lines > 0 && dice.one_in(4)) return std::string{other_head} + std::string{body};
+    return std::string{head} + cross_text(body, other_body, dice);
+  }
+  const auto row = std::max<std::size_t>(1, width_of(input));
+  const auto cut = [&](std::string_view rows) { return row * dice.below(rows.size() / row + 1); };
+  const auto first = body.substr(0, cut(body));
+  return std::string{head}.append(first).append(other_body.substr(cut(other_body)));
+}
+
 void require(bool holds, std::string_view claim, std::string_view detail) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %s\n%s\n", std::string{claim}.c_str(), std::string{detail}.c_str());
   std::abort();
 }
 
-void require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file) {
+Outcome require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file) {
   for (const auto& d : diagnostics) {
     require(d.id.size() == 5 && (d.id.front() == 'E' || d.id.front() == 'W'), "a diagnostic has an id", d);
     require(!d.message.empty() && d.length >= 1, "a diagnostic says something", d);
     require(!d.file.empty(), "a diagnostic names its file", d);
     if (d.file == file) require_place(d, text);
   }
+  return outcome_of(diagnostics);
 }
 
 Outcome reads(std::string_view text, const std::string& file, const std::function<void()>& read) {
@@ -66,8 +110,8 @@ Outcome reads(std::string_view text, const std::string& file, const std::functio
   } catch (const Error& error) {
     require(*error.what() != '\0', "an error says something");
     require(error.diagnostics().empty() || has_errors(error.diagnostics()), "what stops is an error", error.what());
-    require_good(error.diagnostics(), text, file);
-    return error.diagnostics().empty() ? Outcome::kRefused : outcome_of(error.diagnostics());
+    const auto outcome = require_good(error.diagnostics(), text, file);
+    return error.diagnostics().empty() ? Outcome::kRefused : outcome;
   }
 }
 

@@ -2,6 +2,8 @@
 // thought of; with KITH_FUZZ_BYTES set there are no others, for comparison.
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -12,6 +14,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 namespace {
 
 using kith::fuzzing::Dice;
+using kith::fuzzing::Outcome;
 
 constexpr std::size_t kOneOfBytes = 10;
 
@@ -20,21 +23,44 @@ bool bytes_only() {
   return kSet;
 }
 
-// What libFuzzer chose. It keeps mostly inputs that are malformed or refused, since there are so many ways to be; of
-// these only a part is taken, and otherwise one that came further, half of the time with a piece of what was chosen.
-std::string base_of(std::string_view chosen, Dice& dice) {
-  using kith::fuzzing::Outcome;
-  constexpr std::size_t kOneMalformed = 8;
-  std::string base{chosen};
-  const auto& outcomes = kith::fuzzing::outcomes();
-  const auto outcome = outcomes.of(chosen);
-  if (!outcome || outcome == Outcome::kRead) return base;
-  const bool malformed = outcome == Outcome::kMalformed;
-  if (malformed ? dice.one_in(kOneMalformed) : dice.one_in(2)) return base;
-  if (auto other = outcomes.one_that(malformed ? Outcome::kRefused : Outcome::kRead, dice); !other.empty()) {
-    base = std::move(other);
+// How far inputs came, printed at the end since libFuzzer ends the program itself; and the latest that were read. Takes
+// all its memory at the beginning: libFuzzer looks for leaks after every input that allocates more than it frees, which
+// takes a hundred times longer than most inputs.
+class Outcomes {
+ public:
+  Outcomes() {
+    for (auto& input : read_) input.reserve(kLongest);
   }
-  return dice.one_in(2) ? kith::fuzzing::crossed(base, chosen, dice) : base;
+  ~Outcomes() {
+    constexpr std::array<const char*, 3> kNames{"malformed", "refused", "read"};
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+      std::fprintf(stderr, "stat::%s_inputs: %zu\n", kNames.at(i), counts_.at(i));
+  }
+  Outcomes(const Outcomes&) = delete;
+  Outcomes& operator=(const Outcomes&) = delete;
+
+  void add(std::string_view input, Outcome outcome) {
+    auto& count = counts_.at(static_cast<std::size_t>(outcome));
+    if (outcome == Outcome::kRead && input.size() <= kLongest) read_.at(count % read_.size()) = input;
+    ++count;
+  }
+  // One that was read, half of the time with a piece of what libFuzzer chose, which keeps mostly inputs that are
+  // malformed or refused, since there are so many ways to be.
+  [[nodiscard]] std::string better_than(std::string_view chosen, Dice& dice) const {
+    const auto& read = dice.pick(read_);
+    if (read.empty()) return std::string{chosen};
+    return dice.one_in(2) ? kith::fuzzing::crossed(read, chosen, dice) : read;
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 2048;
+  std::array<std::size_t, 3> counts_{};
+  std::array<std::string, 128> read_{};
+};
+
+Outcomes& outcomes() {
+  static Outcomes all;
+  return all;
 }
 
 std::size_t put(const std::string& input, std::uint8_t* out) {
@@ -48,12 +74,17 @@ std::string_view text(const std::uint8_t* data, std::size_t size) {
 
 }  // namespace
 
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  outcomes().add(text(data, size), kith::fuzzing::run(text(data, size)));
+  return 0;
+}
+
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   constexpr int kMostTries = 4;
   Dice dice{seed};
   if (bytes_only() || dice.one_in(kOneOfBytes)) return LLVMFuzzerMutate(data, size, max_size);
-  const auto base = base_of(text(data, size), dice);
+  const auto base = dice.one_in(2) ? std::string{text(data, size)} : outcomes().better_than(text(data, size), dice);
   for (int tries = 0; tries < kMostTries; ++tries) {
     const auto input = kith::fuzzing::mutated(base, dice);
     if (!input.empty() && input.size() <= max_size && input != text(data, size)) return put(input, data);

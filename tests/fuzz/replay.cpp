@@ -16,10 +16,6 @@
 
 namespace {
 
-void run(const std::string& input) {
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
-}
-
 void run_mutations(const std::string& input, const std::string& other) {
   constexpr std::uint64_t kMutations = 6;
   constexpr std::size_t kLongest = 4096;
@@ -30,7 +26,7 @@ void run_mutations(const std::string& input, const std::string& other) {
     };
     const auto mutated = mutation();
     kith::fuzzing::require(mutated == mutation(), "a mutation follows from the input and the seed");
-    if (mutated.size() <= kLongest) run(mutated);
+    if (mutated.size() <= kLongest) (void)kith::fuzzing::run(mutated);
   }
 }
 
@@ -49,7 +45,7 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "%s\n", file.c_str());  // the last one is the culprit
     try {
       auto content = kith::read_file(file);
-      run(content);
+      (void)kith::fuzzing::run(content);
       run_mutations(content, before);
       before = std::move(content);
     } catch (const std::exception& error) {

@@ -50,7 +50,7 @@ std::string mutate_bytes(std::string_view bytes, Dice& dice) {
 
 std::string mutate_vectors(std::string_view bytes, std::size_t head, std::size_t width, Dice& dice) {
   std::string result{bytes};
-  if (result.size() < head + width || dice.one_in(4)) return mutate_bytes(bytes, dice);
+  if (width == 0 || result.size() < head + width || dice.one_in(4)) return mutate_bytes(bytes, dice);
   const auto rows = (result.size() - head) / width;
   const auto row = [&] { return head + dice.below(rows) * width; };
   const auto a = row();

@@ -17,7 +17,8 @@ namespace kith::fuzzing {
 [[nodiscard]] std::string cross_text(std::string_view text, std::string_view other, Dice& dice);
 /// Any bytes: some set, flipped, moved, repeated or left out.
 [[nodiscard]] std::string mutate_bytes(std::string_view bytes, Dice& dice);
-/// Rows of `width` numbers behind a head of `head` bytes: rows and numbers changed, exchanged, repeated, left out.
+/// Rows of `width` numbers, if that is not 0, behind a head of `head` bytes: rows and numbers changed, exchanged,
+/// repeated, left out.
 [[nodiscard]] std::string mutate_vectors(std::string_view bytes, std::size_t head, std::size_t width, Dice& dice);
 
 }  // namespace kith::fuzzing

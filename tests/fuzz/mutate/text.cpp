@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
+#include <sstream>
 #include <vector>
 
 #include "mutate.hpp"
@@ -8,36 +10,16 @@
 namespace kith::fuzzing {
 namespace {
 
-constexpr std::array<std::string_view, 30> kNumbers{"0",
-                                                    "1",
-                                                    "-1",
-                                                    "2",
-                                                    "3",
-                                                    "7",
-                                                    "12",
-                                                    "255",
-                                                    "65536",
-                                                    "2147483648",
-                                                    "9223372036854775808",
-                                                    "-0.0",
-                                                    "0.5",
-                                                    "1.0",
-                                                    "-1.5",
-                                                    "1e-9",
-                                                    "1e-320",
-                                                    "1e308",
-                                                    "1e309",
-                                                    "inf",
-                                                    "nan",
-                                                    "0.1",
-                                                    "1.0000000000000002",
-                                                    "1/3",
-                                                    "0x1F",
-                                                    "1_000",
-                                                    "+5",
-                                                    ".5",
-                                                    "01",
-                                                    "1979-05-27"};
+const std::vector<std::string>& numbers() {
+  static const auto kNumbers = [] {
+    std::istringstream words{
+        "0 1 -1 2 3 7 12 255 65536 2147483648 9223372036854775808 -0.0 0.5 1.0 -1.5 1e-9 1e-320 1e308 1e309 inf nan "
+        "0.1 "
+        "1.0000000000000002 1/3 0x1F 1_000 +5 .5 01 1979-05-27"};
+    return std::vector<std::string>{std::istream_iterator<std::string>{words}, {}};
+  }();
+  return kNumbers;
+}
 constexpr std::array<std::string_view, 8> kOthers{"", "true", "null", "[]", "{}", "[1, \"a\"]", "NA", "\"\""};
 
 enum class Kind { kNumber, kName, kQuoted };
@@ -94,9 +76,9 @@ std::string other_word(std::string_view text, const std::vector<Word>& words, Ki
   const auto& another = dice.pick(words);
   if (another.kind == kind || dice.one_in(8)) return std::string{text.substr(another.begin, another.size)};
   if (dice.one_in(12)) return std::string{dice.pick(kOthers)};
-  if (kind == Kind::kNumber) return std::string{dice.pick(kNumbers)};
+  if (kind == Kind::kNumber) return dice.pick(numbers());
   const auto& known = kind == Kind::kName ? vocabulary.names() : vocabulary.words();
-  return known.empty() ? std::string{dice.pick(kNumbers)} : dice.pick(known);
+  return known.empty() ? dice.pick(numbers()) : dice.pick(known);
 }
 
 std::string with_lines_changed(std::vector<std::string> lines, Dice& dice) {
@@ -122,7 +104,7 @@ std::string with_lines_changed(std::vector<std::string> lines, Dice& dice) {
 
 std::string mutate_text(std::string_view text, const Vocabulary& vocabulary, Dice& dice) {
   const auto words = words_of(text);
-  if (words.empty() || dice.one_in(20)) return mutate_bytes(text, dice);
+  if (words.empty()) return mutate_bytes(text, dice);
   if (dice.one_in(3)) return with_lines_changed(lines_of(text), dice);
   const auto& word = dice.pick(words);
   const auto other = other_word(text, words, word.kind, vocabulary, dice);

@@ -24,26 +24,13 @@ void check(const ResultTable& table) {
 
 }  // namespace
 
-// The first two lines are words, the rest is a table.
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"effect"};
-  const auto [head, body] = behind_lines(input, 2);
-  if (dice.one_in(4)) return mutate_text(head, kVocabulary, dice) + std::string{body};
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "effect", .head_lines = 2};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto [head, body] = behind_lines(input, 2);
-  const auto [other_head, other_body] = behind_lines(other, 2);
-  if (dice.one_in(4)) return std::string{other_head} + std::string{body};
-  return std::string{head} + cross_text(body, other_body, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
   ModelQuestion question{.formula = std::string{bytes.line()}, .observed = {}};
   if (const auto observed = bytes.line(); !observed.empty()) question.observed = observed;
-  const auto outcome = fuzzing::reads(bytes.rest(), "table.csv", [&] {
+  return fuzzing::reads(bytes.rest(), "table.csv", [&] {
     const auto table = Dataset::parse(bytes.rest(), "table.csv");
     fuzzing::require(!table_plan(table, question, {}).empty(), "every question has a plan");
     const auto again = Dataset::parse(table_csv(table), "again.csv");
@@ -55,6 +42,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (const auto& result : finding.tables) check(result);
     }
   });
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
-  return 0;
 }

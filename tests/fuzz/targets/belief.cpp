@@ -65,25 +65,17 @@ void observe_any(ParticleBelief& belief, fuzzing::Bytes& bytes, const HalfSpaceL
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  const auto d = input.empty() ? std::size_t{3} : 2 + static_cast<unsigned char>(input.front()) % 7;
-  return mutate_vectors(input, 4, d, dice);
-}
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return std::string{input.substr(0, dice.below(input.size() + 1))} +
-         std::string{other.substr(dice.below(other.size() + 1))};
-}
+const fuzzing::Form fuzzing::kForm{.head_bytes = 4, .width = fuzzing::kByFirstByte};
 
 // The first byte chooses how many dimensions there are.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
-  const auto d = 2 + bytes.below(7);
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
+  const auto d = bytes.dimension();
   const auto particles = 1 + bytes.below(48);
   const auto noise = 2.0 * bytes.fraction();
   const FilterOptions options{.particles = particles, .process_noise = noise, .resample_below = bytes.fraction()};
   const auto prior = fuzzing::intersection(fuzzing::half_spaces(bytes, 3, 3, d), d);
-  if (!prior) return 0;
+  if (!prior) return Outcome::kRefused;
   const PriorCover cover{*prior, options.particles};
   ParticleBelief belief{cover, options};
   check(belief, *prior);
@@ -98,5 +90,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (action == 7) belief = ParticleBelief{cover, options};
     check(belief, *prior);
   }
-  return 0;
+  return Outcome::kRead;
 }

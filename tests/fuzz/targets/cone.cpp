@@ -53,23 +53,15 @@ void check_directions(const Cone& cone, const std::vector<HalfSpace>& all) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  const auto d = input.empty() ? std::size_t{3} : 2 + static_cast<unsigned char>(input.front()) % 7;
-  return mutate_vectors(input, 2, d, dice);
-}
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return std::string{input.substr(0, dice.below(input.size() + 1))} +
-         std::string{other.substr(dice.below(other.size() + 1))};
-}
+const fuzzing::Form fuzzing::kForm{.head_bytes = 2, .width = fuzzing::kByFirstByte};
 
 // The first byte chooses how many dimensions there are, the second how large entries are: above three dimensions so
 // large that extreme rays are sure to fit.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+fuzzing::Outcome fuzzing::run(std::string_view input) {
   constexpr std::array<std::int64_t, 4> kLimits{1, 3, 20, 30'000};
   constexpr std::int64_t kMostBeyondSpace = 60;
-  fuzzing::Bytes bytes{data, size};
-  const auto d = 2 + bytes.below(7);
+  fuzzing::Bytes bytes{input};
+  const auto d = bytes.dimension();
   const auto limit = std::min(kLimits[bytes.below(kLimits.size())], d > 3 ? kMostBeyondSpace : kLimits.back());
   const auto all = fuzzing::half_spaces(bytes, 16, limit, d);
   const auto cone = fuzzing::intersection(all, d);
@@ -78,10 +70,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(cone.has_value() == other.has_value(), "the order decides nothing");
   if (!cone) {
     check_conflict(all);
-    return 0;
+    return Outcome::kRefused;
   }
   require(*cone == *other && cone->minimal_set() == other->minimal_set(), "the order changes nothing");
   check_minimal(*cone, all);
   check_directions(*cone, all);
-  return 0;
+  return Outcome::kRead;
 }

@@ -36,18 +36,13 @@ std::vector<std::vector<std::size_t>> largest(const Lists& lists, const Cone& pr
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 1, 3, dice); }
+const fuzzing::Form fuzzing::kForm{.head_bytes = 1, .width = 3};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return std::string{input.substr(0, dice.below(input.size() + 1))} +
-         std::string{other.substr(dice.below(other.size() + 1))};
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
   const auto limit = static_cast<std::int64_t>(1 + bytes.below(4));
   const auto prior = Cone::intersection(fuzzing::half_spaces(bytes, 3, limit));
-  if (!prior) return 0;
+  if (!prior) return Outcome::kRefused;
   Lists lists(bytes.below(5));
   for (auto& list : lists) list = fuzzing::half_spaces(bytes, 3, limit);
   const auto result = largest_consistent_subsets(lists, *prior);
@@ -58,5 +53,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(!sound || result.reduced_lists[i] == lists[i], "who agrees with themselves loses nothing");
   }
   require(result.subsets == largest(result.reduced_lists, *prior), "the largest sets are those found by trying all");
-  return 0;
+  return Outcome::kRead;
 }

@@ -48,31 +48,20 @@ std::string written(const Rows& rows) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"csv"};
-  if (dice.one_in(20)) return mutate_bytes(input, dice);
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "csv", .head_bytes = 1};
 
 // The first byte says whether other columns are ignored.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
   const auto others = bytes.below(2) == 0 ? OtherColumns::kReject : OtherColumns::kIgnore;
   std::vector<Diagnostic> diagnostics;
   const auto rows = rows_of(bytes.rest(), others, diagnostics);
-  fuzzing::require_good(diagnostics, bytes.rest(), "table.csv");
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(diagnostics));
+  const auto outcome = fuzzing::require_good(diagnostics, bytes.rest(), "table.csv");
   std::vector<Diagnostic> none;
   const auto text = written(rows);
   fuzzing::require(rows_of(text, OtherColumns::kReject, none) == rows && none.empty(), "rows read as written", text);
   fuzzing::reads(bytes.rest(), "table.csv", [&] {
     fuzzing::require(!read_csv_header(bytes.rest(), "table.csv").empty(), "a header names columns");
   });
-  return 0;
+  return outcome;
 }

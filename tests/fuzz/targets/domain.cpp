@@ -43,27 +43,18 @@ const DomainFiles& files() {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"domain"};
-  return mutate_text(input, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "domain"};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return cross_text(input, other, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text{reinterpret_cast<const char*>(data), size};
+fuzzing::Outcome fuzzing::run(std::string_view text) {
   const auto reading = parse_domain(text, "domain.toml", {.max_states = 2'000}, files());
   fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
-  fuzzing::require_good(reading.diagnostics, text, "domain.toml");
-  fuzzing::note(text, fuzzing::outcome_of(reading.diagnostics));
-  if (!reading.domain) return 0;
+  const auto outcome = fuzzing::require_good(reading.diagnostics, text, "domain.toml");
+  if (!reading.domain) return outcome;
   const auto& domain = *reading.domain;
   for (const auto& half_space : domain.prior()) {
     fuzzing::require(half_space.contains(domain.weights().integer), "the prior holds at the weights");
   }
   for (std::size_t m = 0; m < std::min<std::size_t>(domain.num_mdps(), 4); ++m) check_states(domain, MdpIndex{m});
   fuzzing::WholeRobot::use(domain);
-  return 0;
+  return outcome;
 }

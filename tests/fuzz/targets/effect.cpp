@@ -34,25 +34,13 @@ bool check_filter(std::string_view text) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"effect"};
-  return mutate_text(input, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "effect"};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return cross_text(input, other, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+fuzzing::Outcome fuzzing::run(std::string_view input) {
   static const auto kSpec = fuzzing::tiny_study().study.value().variants.front();
-  fuzzing::Bytes bytes{data, size};
+  fuzzing::Bytes bytes{input};
   const bool effect = check_effect(bytes.line(), kSpec);
   const bool filter = check_filter(bytes.line());
-  using fuzzing::Outcome;
-  const bool all = effect && filter;
-  const bool some = effect || filter;
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, all    ? Outcome::kRead
-                                                             : some ? Outcome::kRefused
-                                                                    : Outcome::kMalformed);
-  return 0;
+  if (effect && filter) return Outcome::kRead;
+  return effect || filter ? Outcome::kRefused : Outcome::kMalformed;
 }

@@ -78,29 +78,17 @@ std::string outcome_of(std::string_view stream, std::size_t piece) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"http_head"};
-  if (dice.one_in(4)) return mutate_bytes(input, dice);
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "http_head", .head_bytes = 1, .bytes_one_in = 4};
 
 // The first byte says how long the pieces are. An empty line ends whatever is not complete: a head that cannot become a
 // request may be refused as soon as that shows, or when it ends.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
   const auto piece = 1 + bytes.below(64);
   const auto stream = std::string{bytes.rest()} + "\r\n\r\n";
   const auto whole = outcome_of(stream, stream.size());
   const auto failed = whole.size() >= 6 && whole.compare(whole.size() - 6, 6, "failed") == 0;
-  fuzzing::note({reinterpret_cast<const char*>(data), size},
-                failed ? fuzzing::Outcome::kRefused : fuzzing::Outcome::kRead);
   const auto in_pieces = outcome_of(stream, piece);
   fuzzing::require(in_pieces == whole, "the same requests from pieces", in_pieces + " instead of " + whole);
-  return 0;
+  return failed ? Outcome::kRefused : Outcome::kRead;
 }

@@ -68,18 +68,14 @@ void check(const Journal& journal) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 0, 4, dice); }
+const fuzzing::Form fuzzing::kForm{.width = 4};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice&) {
-  return std::string{input} + std::string{other};
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+fuzzing::Outcome fuzzing::run(std::string_view input) {
   static const fuzzing::Scratch kScratch;
   static const auto kPath = kScratch.path() / "study.sqlite";
   static const std::string kSound = sound_journal(kPath);
   auto file = kSound;
-  damage(file, {data, size});
+  damage(file, fuzzing::Bytes{input});
   for (const auto& entry : fs::directory_iterator{kScratch.path()}) fs::remove(entry);
   write_file_atomically(kPath, file);
   std::vector<bool> done;
@@ -90,12 +86,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (journal->damaged().empty()) check(*journal);
     journal->close();
   });
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
-  if (outcome != fuzzing::Outcome::kRead) {
-    require(done.empty(), "what was opened can be read");
-    return 0;
-  }
+  require(outcome == Outcome::kRead || done.empty(), "what was opened can be read");
+  if (outcome != Outcome::kRead) return outcome;
   const auto again = Journal::open(kPath, identity());
   require(again && !again->was_recovered() && again->done() == done, "opening again finds the same");
-  return 0;
+  return outcome;
 }

@@ -48,29 +48,16 @@ DomainFiles files_with(const char* name, std::string_view text) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"model"};
-  if (input.empty() || dice.one_in(20)) return mutate_bytes(input, dice);
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "model", .head_bytes = 1};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  if (input.empty()) return std::string{other};
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  const auto& layout = layouts()[data[0] % layouts().size()];
-  const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  if (input.empty()) return Outcome::kMalformed;
+  const auto& layout = layouts()[static_cast<unsigned char>(input.front()) % layouts().size()];
+  const auto text = input.substr(1);
   const std::string domain{layout.domain == nullptr ? text : std::string_view{*layout.domain}};
   const auto reading = parse_domain(domain, kDomainFile, {.max_states = 2'000}, files_with(layout.fuzzed, text));
   fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
-  fuzzing::require_good(reading.diagnostics, text, layout.fuzzed);
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(reading.diagnostics));
-  if (!reading.domain) return 0;
-  fuzzing::WholeRobot::use(*reading.domain);
-  return 0;
+  const auto outcome = fuzzing::require_good(reading.diagnostics, text, layout.fuzzed);
+  if (reading.domain) fuzzing::WholeRobot::use(*reading.domain);
+  return outcome;
 }

@@ -98,33 +98,21 @@ void infer_and_read(const Robot& robot, const ObservedPolicy& policy) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"policy"};
-  if (input.empty() || dice.one_in(20)) return mutate_bytes(input, dice);
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "policy", .head_bytes = 1};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  if (input.empty()) return std::string{other};
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  const Robot& robot = robot_of(data[0]);
-  const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  if (input.empty()) return Outcome::kMalformed;
+  const Robot& robot = robot_of(static_cast<unsigned char>(input.front()));
+  const auto text = input.substr(1);
   const auto reading = parse_policy(text, kFile, robot.domain);
   fuzzing::require(reading.policy.has_value() != has_errors(reading.diagnostics), "a policy, or errors");
-  fuzzing::require_good(reading.diagnostics, text, kFile);
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(reading.diagnostics));
-  if (!reading.policy) return 0;
+  const auto outcome = fuzzing::require_good(reading.diagnostics, text, kFile);
+  if (!reading.policy) return outcome;
   const auto [table, is_whole] = table_of(robot.domain, *reading.policy);
   if (is_whole) {
     const auto again = parse_policy(table, kFile, robot.domain);
     fuzzing::require(again.policy && are_close(*again.policy, *reading.policy), "read as written", table);
   }
   infer_and_read(robot, *reading.policy);
-  return 0;
+  return outcome;
 }

@@ -113,18 +113,12 @@ const std::vector<std::string>& sound_answers() {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 1, kEditSize, dice); }
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto edits = behind_bytes(other, 1).body;
-  const auto from = dice.below(edits.size() / kEditSize + 1) * kEditSize;
-  return std::string{input} + std::string{edits.substr(from)};
-}
+const fuzzing::Form fuzzing::kForm{.head_bytes = 1, .width = fuzzing::kEditSize};
 
 // The first byte chooses what is asked and whether the manifest is made to match.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+fuzzing::Outcome fuzzing::run(std::string_view input) {
   const auto& answers = sound_answers();
-  fuzzing::Bytes bytes{data, size};
+  fuzzing::Bytes bytes{input};
   const auto choice = bytes.byte();
   const bool forged = (choice & 0x80u) != 0;
   auto content = fuzzing::edited(runs().sound, runs().foreign, bytes);
@@ -138,8 +132,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(forged || !text || *text == answers.at(i), "an answer is that of the untouched folder, or an error",
             "question " + std::to_string(i));
   }
-  const std::string_view input{reinterpret_cast<const char*>(data), size};
-  fuzzing::note(input, all_answered ? fuzzing::Outcome::kRead : fuzzing::Outcome::kRefused);
   fuzzing::put(runs().folder, runs().sound);
-  return 0;
+  return all_answered ? Outcome::kRead : Outcome::kRefused;
 }

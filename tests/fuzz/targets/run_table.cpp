@@ -39,29 +39,17 @@ const std::map<std::string, Read> kReaders{
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"run_table"};
-  if (dice.one_in(20)) return mutate_bytes(input, dice);
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto [head, body] = behind_bytes(input, 1);
-  return std::string{head} + cross_text(body, behind_bytes(other, 1).body, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "run_table", .head_bytes = 1};
 
 // The first byte chooses the table.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+fuzzing::Outcome fuzzing::run(std::string_view input) {
   static const auto kStudy = fuzzing::tiny_study().study.value();
   static const auto kTables = study_tables(kStudy);
   static const auto kTeams = team_addresses(kStudy);
-  fuzzing::Bytes bytes{data, size};
+  fuzzing::Bytes bytes{input};
   const auto& table = kTables[bytes.below(kTables.size())];
   const auto reader = kReaders.find(table.file);
-  if (reader == kReaders.end()) return 0;  // particles.csv is for people
-  const auto outcome = fuzzing::reads(bytes.rest(), table.file,
-                                      [&] { static_cast<void>(reader->second(bytes.rest(), table, kStudy, kTeams)); });
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
-  return 0;
+  if (reader == kReaders.end()) return Outcome::kRefused;  // particles.csv is for people
+  return fuzzing::reads(bytes.rest(), table.file,
+                        [&] { static_cast<void>(reader->second(bytes.rest(), table, kStudy, kTeams)); });
 }

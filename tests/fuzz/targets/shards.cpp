@@ -64,17 +64,11 @@ void check(const Shards& shards, bool allow_partial) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 2, kEditSize, dice); }
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto edits = behind_bytes(other, 2).body;
-  const auto from = dice.below(edits.size() / kEditSize + 1) * kEditSize;
-  return std::string{input} + std::string{edits.substr(from)};
-}
+const fuzzing::Form fuzzing::kForm{.head_bytes = 2, .width = fuzzing::kEditSize};
 
 // The first byte says whether something may be missing, the second which folders are named: four times two bits.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
   const auto& made = runs();
   const bool allow_partial = bytes.below(2) != 0;
   std::vector<fs::path> folders;
@@ -89,7 +83,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto shards = open_shards(folders, fuzzing::kProgram, allow_partial);
     check(shards, allow_partial);
   });
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
   fuzzing::put(made.path(), made.sound);
-  return 0;
+  return outcome;
 }

@@ -19,26 +19,19 @@ TeamAddress address_of(std::string_view head) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_bytes(input, dice); }
+const fuzzing::Form fuzzing::kForm{};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return std::string{input.substr(0, dice.below(input.size() + 1))} +
-         std::string{other.substr(dice.below(other.size() + 1))};
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view input{reinterpret_cast<const char*>(data), size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
   const auto [head, content] = fuzzing::behind_bytes(input, 1);
   const auto address = address_of(head);
   static_cast<void>(decode_team(address, content, kKey));  // as it is; nobody guesses a checksum
   const auto sealed = seal_record(address.team, std::string{content}, kKey);
   const auto decoded = decode_team(address, sealed, kKey);
-  fuzzing::note(input, decoded ? fuzzing::Outcome::kRead : fuzzing::Outcome::kMalformed);
   require(!decoded || is_intact(address.team, sealed, kKey), "what is read is intact");
   require(!is_intact(address.team + 1, sealed, kKey), "bytes belong to one team");
-  if (!decoded) return 0;
+  if (!decoded) return Outcome::kMalformed;
   const auto again = encode_team(*decoded, kKey);
   const auto twice = decode_team(address, again, kKey);
   require(twice && encode_team(*twice, kKey) == again, "a record that was read can be written");
-  return 0;
+  return Outcome::kRead;
 }

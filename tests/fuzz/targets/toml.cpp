@@ -17,26 +17,15 @@ void check_assignment(std::string_view text, TomlDocument& document) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"toml"};
-  const auto [head, body] = behind_lines(input, 1);
-  if (dice.one_in(5)) return mutate_text(head, kVocabulary, dice) + std::string{body};
-  return std::string{head} + mutate_text(body, kVocabulary, dice);
-}
-
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  const auto [head, body] = behind_lines(input, 1);
-  return std::string{head} + cross_text(body, behind_lines(other, 1).body, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "toml", .head_lines = 1};
 
 // The first line is an assignment.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
+fuzzing::Outcome fuzzing::run(std::string_view input) {
+  fuzzing::Bytes bytes{input};
   const auto assignment = bytes.line();
   auto parsed = parse_toml(bytes.rest(), "file");
   fuzzing::require(parsed.document.has_value() != has_errors(parsed.diagnostics), "a document, or errors");
-  fuzzing::require_good(parsed.diagnostics, bytes.rest(), "file");
-  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(parsed.diagnostics));
+  const auto outcome = fuzzing::require_good(parsed.diagnostics, bytes.rest(), "file");
   auto document = parsed.document ? *std::move(parsed.document) : TomlDocument{{{"file", ""}}, {}};
   check_assignment(assignment, document);
   const auto text = to_toml(document.root);
@@ -44,5 +33,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzzing::require(again.document.has_value(), "what is written can be read", text);
   fuzzing::require(again.document->root == document.root, "what is written reads as an equal table", text);
   fuzzing::require(to_toml(again.document->root) == text, "writing is a fixpoint", text);
-  return 0;
+  return outcome;
 }

@@ -7,19 +7,11 @@
 
 using namespace kith;
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"trials"};
-  return mutate_text(input, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "trials"};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return cross_text(input, other, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text{reinterpret_cast<const char*>(data), size};
+fuzzing::Outcome fuzzing::run(std::string_view text) {
   const fuzzing::MemoryFile file{text};
-  const auto outcome = fuzzing::reads(text, file.path().string(), [&] {
+  return fuzzing::reads(text, file.path().string(), [&] {
     const auto logs = import_trials(file.path());
     fuzzing::require(!has_errors(logs.notes), "what was read has no errors");
     fuzzing::require_good(logs.notes, text, file.path().string());
@@ -32,6 +24,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (const auto& period : person.periods) fuzzing::require(period.component >= 1, "components count from 1");
     }
   });
-  fuzzing::note(text, outcome);
-  return 0;
 }

@@ -27,28 +27,18 @@ std::size_t depth_of(std::string_view text) {
 
 }  // namespace
 
-std::string fuzzing::mutated(std::string_view input, Dice& dice) {
-  static const Vocabulary kVocabulary{"web_frame"};
-  if (dice.one_in(20)) return mutate_bytes(input, dice);
-  return mutate_text(input, kVocabulary, dice);
-}
+const fuzzing::Form fuzzing::kForm{.words = "web_frame"};
 
-std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
-  return cross_text(input, other, dice);
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+fuzzing::Outcome fuzzing::run(std::string_view text) {
   constexpr std::size_t kDeepest = 32;
-  const std::string_view text{reinterpret_cast<const char*>(data), size};
   const bool nests = json_nests_within(text, kDeepest);
   const auto json = nests ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json{};
-  fuzzing::note(text, nests && !json.is_discarded() ? fuzzing::Outcome::kRead : fuzzing::Outcome::kRefused);
-  if (!nests || json.is_discarded()) return 0;
+  if (!nests || json.is_discarded()) return Outcome::kRefused;
   const auto depth = depth_of(text);
   fuzzing::require(depth <= kDeepest && json_nests_within(text, depth), "no deeper than counted");
   fuzzing::require(depth == 0 || !json_nests_within(text, depth - 1), "as deep as counted");
   if (const auto act = act_for(json)) {
     fuzzing::require(!act->type.empty() && !act->key.empty() && act->pace >= 0.0, "an act is something to do");
   }
-  return 0;
+  return Outcome::kRead;
 }
