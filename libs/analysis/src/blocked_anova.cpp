@@ -75,9 +75,9 @@ std::string fill_rows(GatheredBlocks& all) {
 }
 
 Estimable<GatheredBlocks> gather_blocks(std::span<const double> response, const Factor& within, const Factor& between,
-                                        const Factor& block) {
-  require_finite(response, "blocked_anova");
-  for (const auto* factor : {&within, &between, &block}) require_codes(*factor, response.size(), "blocked_anova");
+                                        const Factor& block, const char* caller) {
+  require_finite(response, caller);
+  for (const auto* factor : {&within, &between, &block}) require_codes(*factor, response.size(), caller);
   GatheredBlocks all{drop_unused(within), drop_unused(between), drop_unused(block), standardize(response)};
   if (const auto fault = fill_rows(all); !fault.empty()) return Estimable<GatheredBlocks>::impossible(fault);
   all.spread = spread_of(all.blocks, all.groups.levels.size());
@@ -149,7 +149,7 @@ double greenhouse_geisser(const Eigen::MatrixXd& covariances) {
 Estimable<Sphericity> check_sphericity(std::span<const double> response, const Factor& within, const Factor& between,
                                        const Factor& block) {
   using Result = Estimable<Sphericity>;
-  const auto gathered = gather_blocks(response, within, between, block);
+  const auto gathered = gather_blocks(response, within, between, block, "check_sphericity");
   if (!gathered) return Result::impossible(gathered.reason());
   if (!gathered->no_errors.empty()) return Result::impossible(gathered->no_errors);
   const auto covariances = covariances_of(gathered->blocks, gathered->spread);
@@ -193,7 +193,7 @@ TestResult correct_for_sphericity(const TestResult& test, double epsilon) {
 
 Estimable<AnovaTable> blocked_anova(std::span<const double> response, const Factor& within, const Factor& between,
                                     const Factor& block) {
-  const auto gathered = gather_blocks(response, within, between, block);
+  const auto gathered = gather_blocks(response, within, between, block, "blocked_anova");
   if (!gathered) return Estimable<AnovaTable>::impossible(gathered.reason());
   const auto &levels = gathered->levels, &groups = gathered->groups, &people = gathered->people;
   const auto& blocks = gathered->blocks;

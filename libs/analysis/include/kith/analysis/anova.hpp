@@ -50,6 +50,7 @@ struct AnovaTable {
 /// Model: response ~ within * between + block, with block nested in `between` (R: aov with Error(block)). Returns the
 /// terms `within` and `within:between`, tested against the residual within blocks.
 /// Not estimable unless every block has each level of `within` exactly once.
+/// @throws std::invalid_argument if a value is not finite, or unless each factor has a code for every one.
 [[nodiscard]] Estimable<AnovaTable> blocked_anova(std::span<const double> response, const Factor& within,
                                                   const Factor& between, const Factor& block);
 
@@ -66,7 +67,7 @@ struct Sphericity {
 };
 /// Of the same model as blocked_anova(), from the covariances of the levels within groups of blocks. With two levels it
 /// always holds, and there is nothing to test.
-/// Not estimable as blocked_anova() is not, without spread or residual degrees of freedom.
+/// Not estimable as blocked_anova() is not, without spread or residual degrees of freedom. Throws as that does.
 [[nodiscard]] Estimable<Sphericity> check_sphericity(std::span<const double> response, const Factor& within,
                                                      const Factor& between, const Factor& block);
 /// An F test of blocked_anova() with both degrees of freedom multiplied by epsilon, which makes it valid without
