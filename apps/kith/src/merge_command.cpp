@@ -5,7 +5,6 @@
 
 #include "build_facts.hpp"
 #include "command.hpp"
-#include "failpoint.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/text.hpp"
 #include "kith/runs/merge.hpp"
@@ -56,7 +55,6 @@ int run(const MergeOptions& options, Console& console) {
   how.program = program_name();
   how.replace = options.yes;
   how.rebuild = true;
-  how.on_instant = failpoint();
   StudyRun run{options.out, std::move(reading), std::move(how)};
   for (const auto& shard : shards.journals) run.take_up(shard);
   facts.missing = shards.missing;

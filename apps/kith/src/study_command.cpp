@@ -10,7 +10,6 @@
 #include "build_facts.hpp"
 #include "command.hpp"
 #include "exit_codes.hpp"
-#include "failpoint.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/bec/memory_needs.hpp"
@@ -127,8 +126,6 @@ StudyRunOptions run_options(const StudyOptions& options) {
   run.replace = options.yes;
   run.shard = options.shard;
   run.keep_going = options.keep_going;
-  run.on_instant = failpoint();
-  if (run.on_instant) run.checkpoint_seconds = 0.0;  // every team for itself, so that instants can be counted
   run.stopped = [] { return stop_signal() != 0; };
   return run;
 }

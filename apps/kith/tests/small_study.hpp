@@ -24,11 +24,4 @@ namespace kith::testing {
   return kTables;
 }
 
-/// Ends the program at the instant of that name and number, such as "team:9".
-[[nodiscard]] inline RunWith fails_at(const std::string& failpoint) {
-  RunWith with;
-  with.environment = {{"KITH_FAILPOINT", failpoint}};
-  return with;
-}
-
 }  // namespace kith::testing

@@ -95,21 +95,19 @@ Generation::~Generation() {
   if (!staging_.empty()) fs::remove_all(staging_, ignored);
 }
 
-void Generation::commit(const std::vector<std::string>& removed,
-                        const std::function<void(const std::string& instant)>& observer) {
+void Generation::commit(const std::vector<std::string>& removed) {
   write_file_atomically(staging_ / kContents, contents_of(staging_, removed), FolderSync::kLater);
   make_folder(staging_ / kReplaced);
   synchronise_folders(staging_);
   move(staging_, folder_ / kCommitted);
   staging_.clear();
   synchronise_folder(folder_);
-  if (observer) observer("generation");
-  settle(folder_, observer);
+  settle(folder_);
 }
 
 bool is_unsettled(const fs::path& folder) { return is_entry(folder / kCommitted); }
 
-void settle(const fs::path& folder, const std::function<void(const std::string& instant)>& observer) {
+void settle(const fs::path& folder) {
   const auto committed = folder / kCommitted;
   if (!is_entry(committed)) return;
   const auto contents = read_file(committed / kContents);
@@ -124,7 +122,6 @@ void settle(const fs::path& folder, const std::function<void(const std::string& 
       move(folder / name, committed / kReplaced / name);
     }
     if (put) move(committed / name, folder / name);
-    if (observer) observer(name);
   }
   synchronise_folder(folder);
   // Under this name nobody takes it for something to finish; the next Generation removes what is left of it.

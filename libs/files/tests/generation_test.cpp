@@ -38,12 +38,12 @@ class GenerationTest : public ::testing::Test {
     return files;
   }
   // A new generation that has no tables, so those that are there go.
-  void commit(const std::function<void(const std::string&)>& observer = {}) const {
+  void commit() const {
     Generation generation{folder_};
     put(generation.path(), "inputs/study", "new");
     put(generation.path(), "inputs/more", "new");
     put(generation.path(), "manifest", "new");
-    generation.commit({"tables"}, observer);
+    generation.commit({"tables"});
   }
 
   const Content before_{{"inputs/study", "old"}, {"manifest", "old"}, {"mine.txt", "not of any generation"}};
@@ -66,24 +66,6 @@ TEST_F(GenerationTest, ReplacesWhatItHoldsAndRemovesWhatItIsToldTo) {
   put(folder_, "tables/teams", "old");
   commit();
   EXPECT_EQ(content(), after_);
-}
-
-TEST_F(GenerationTest, IsFinishedByTheNextWhereverItWasEnded) {
-  struct End {};
-  for (const std::string instant : {"generation", "inputs", "manifest", "tables"}) {
-    fs::remove_all(folder_);
-    for (const auto& [name, text] : before_) put(folder_, name, text);
-    put(folder_, "tables/teams", "old");
-    EXPECT_THROW(commit([&](const std::string& now) {
-                   if (now == instant) throw End{};
-                 }),
-                 End);
-    EXPECT_TRUE(is_unsettled(folder_)) << instant;
-    settle_for_reading(folder_);
-    EXPECT_EQ(content(), after_) << instant;
-    settle(folder_);  // again: nothing
-    EXPECT_EQ(content(), after_) << instant;
-  }
 }
 
 TEST_F(GenerationTest, IsNotFinishedByReadersWhileItsOwnerIsAtIt) {

@@ -79,10 +79,7 @@ std::vector<std::string> differences(const RunInputs& earlier, const RunInputs& 
 fs::path extended_file(const fs::path& path) { return fs::path{path}.replace_filename("study.extended.sqlite"); }
 
 void extend_journal(const fs::path& path, const JournalIdentity& earlier, const JournalIdentity& identity,
-                    const Study& study, const std::function<void(const std::string& instant)>& observer) {
-  const auto reach = [&](const char* instant) {
-    if (observer) observer(instant);
-  };
+                    const Study& study) {
   const auto before = replicates_of(values_of(earlier.inputs.study));
   const auto file = extended_file(path);
   {
@@ -118,7 +115,6 @@ void extend_journal(const fs::path& path, const JournalIdentity& earlier, const 
     extended.close();
     old->close();
   }
-  reach("extending");
   for (const auto* suffix : {"-wal", "-shm"}) {
     std::error_code ignored;
     for (const auto& one : {file, path}) fs::remove(fs::path{one}.concat(suffix), ignored);
@@ -126,7 +122,6 @@ void extend_journal(const fs::path& path, const JournalIdentity& earlier, const 
   std::error_code failure;
   fs::rename(file, path, failure);
   if (failure) throw Error{ErrorKind::kIo, "cannot replace " + path.string() + ": " + failure.message()};
-  reach("extended");
 }
 
 }  // namespace kith

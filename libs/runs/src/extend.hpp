@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,11 +18,10 @@ namespace kith {
 
 // Makes the journal of an extended study of the one at `path`, whose teams it takes over under their new numbers. The
 // old one stays until the new one is complete; whatever ends this, one of the two is there.
-// @param study     the extended one.
-// @param observer  is told, by name, what has been done.
+// @param study  the extended one.
 // @pre extends(earlier.inputs, identity.inputs), and both are of the same program and the whole study.
 void extend_journal(const std::filesystem::path& path, const JournalIdentity& earlier, const JournalIdentity& identity,
-                    const Study& study, const std::function<void(const std::string& instant)>& observer);
+                    const Study& study);
 
 // Where extend_journal() makes the new journal.
 [[nodiscard]] std::filesystem::path extended_file(const std::filesystem::path& path);

@@ -56,9 +56,7 @@ void JournalWriter::flush() {
 void JournalWriter::save(const Batch& batch) {
   if (batch.entries.empty() && batch.failures.empty()) return;
   broken_ = true;  // until we know better
-  if (on_instant_) on_instant_("commit");
   journal_.write(batch.entries, batch.failures);
-  if (on_instant_) on_instant_("committed");
   broken_ = false;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -14,8 +13,7 @@ namespace kith {
 // batch is old enough saves what has come in since, while the others go on teaching.
 class JournalWriter {
  public:
-  JournalWriter(Journal& journal, double seconds, std::function<void(const std::string& instant)> on_instant)
-      : journal_{journal}, interval_{seconds}, on_instant_{std::move(on_instant)} {}
+  JournalWriter(Journal& journal, double seconds) : journal_{journal}, interval_{seconds} {}
 
   // From any thread. They throw if a batch cannot be saved.
   void add(JournalEntry entry);
@@ -36,7 +34,6 @@ class JournalWriter {
 
   Journal& journal_;
   std::chrono::duration<double> interval_;
-  std::function<void(const std::string& instant)> on_instant_;
   std::mutex pending_mutex_;
   Batch pending_;
   Clock::time_point last_ = Clock::now();

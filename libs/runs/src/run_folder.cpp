@@ -203,10 +203,6 @@ void RunFolder::check_content(bool replace) {
               Remedy::kReplaceContents};
 }
 
-void RunFolder::reach(const std::string& instant) const {
-  if (observer_) observer_(instant);
-}
-
 void RunFolder::freeze_inputs() {
   std::error_code ignored;
   if (fs::exists(path_ / "inputs", ignored)) return;
@@ -265,11 +261,9 @@ void RunFolder::commit(Generation& generation, const std::string& manifest, cons
   write_file_atomically(generation.path() / "log.txt", log, FolderSync::kLater);
   write_file_atomically(generation.path() / "timings.csv", timings_table(facts), FolderSync::kLater);
   write_file_atomically(generation.path() / kManifestFile, manifest, FolderSync::kLater);
-  reach("staged");
   require_in_place();
   published_ = true;
-  generation.commit(removed, observer_);
-  reach("published");
+  generation.commit(removed);
 }
 
 std::optional<std::string> published_fact(const fs::path& folder, const std::string& key) {

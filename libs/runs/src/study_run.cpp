@@ -226,7 +226,7 @@ void StudyRun::State::open_journal() {
 
 // The same study with more teams: those that are there count.
 void StudyRun::State::extend(const JournalIdentity& found) {
-  extend_journal(path / kJournalFile, found, identity, *reading.study, options.on_instant);
+  extend_journal(path / kJournalFile, found, identity, *reading.study);
   if (!open_own_journal()) return begin_journal();
   notes.push_back(path.string() + " held " + std::to_string(found.teams) + " teams of this study; " +
                   std::to_string(identity.teams - found.teams) + " are added");
@@ -250,7 +250,6 @@ void StudyRun::State::take_up_rank_journals() {
 
 void StudyRun::State::open_folder() {
   folder.emplace(path, identity.inputs, options.replace);
-  folder->watch(options.on_instant);
   Journal::remove(extended_file(path / kJournalFile));
   open_journal();
   folder->freeze_inputs();
@@ -311,7 +310,7 @@ bool StudyRun::teach(const Atlas& atlas) {
   auto& state = *state_;
   auto& ranks = *state.ranks;
   const auto& options = state.options;
-  JournalWriter writer{*state.journal, options.checkpoint_seconds, options.on_instant};
+  JournalWriter writer{*state.journal, options.checkpoint_seconds};
   std::mutex progress;
   std::size_t done = state.resumed;
   const auto sink = [&](TeamOutcome outcome) {
@@ -329,7 +328,6 @@ bool StudyRun::teach(const Atlas& atlas) {
     if (ranks.size() > 1) done = std::max(done, state.resumed + outcome.position + 1);
     if (!outcome.record) state.failures.push_back({team, message_of(outcome.failure)});
     if (options.on_progress) options.on_progress(done, state.teams, state.failures.size());
-    if (options.on_instant) options.on_instant("team");
   };
 
   StreamOptions stream;

@@ -20,6 +20,7 @@
 #include <new>
 #include <span>
 
+#include "kith/files/published_run.hpp"
 #include "kith/runs/merge.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/verify.hpp"
@@ -194,7 +195,7 @@ std::atomic<std::size_t>& saved() {
 StudyRunOptions alone() {
   auto options = how();
   options.threads = 1;
-  options.on_instant = [](const std::string& instant) { saved() += instant == "committed" ? 1 : 0; };
+  options.on_progress = [](std::size_t, std::size_t, std::size_t) { ++saved(); };
   return options;
 }
 
@@ -241,6 +242,13 @@ std::vector<Story> stories() {
                  [](const fs::path& folder) {
                    run_partly(folder, 5);
                    fs::resize_file(folder / kJournalFile, fs::file_size(folder / kJournalFile) - 4096);
+                 },
+                 act});
+  all.push_back({"grow",
+                 [](const fs::path& folder) {
+                   StudyRun fewer{folder, quick_study({"replicates=2"}), how()};
+                   EXPECT_TRUE(fewer.teach(item_delivery()));
+                   (void)fewer.publish({});
                  },
                  act});
   auto replace = alone();
@@ -312,6 +320,10 @@ bool survives(const Story& story, Strike strike, std::size_t n) {
   } else {
     EXPECT_NE(strike, Strike::kShort) << told;
     EXPECT_TRUE(between.empty() || between == before || between == expected()) << told;
+  }
+  if (n % 2 == 0 && fs::exists(folder / kManifestFile)) {  // then all that it names is of one run
+    const auto published = PublishedRun::open(folder);
+    for (const auto& [name, hash] : published.hashes()) EXPECT_NO_THROW((void)published.read(name)) << told;
   }
   const std::size_t kept = saved();
   try {

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "kith/files/published_run.hpp"
-#include "kith/files/sha256.hpp"
 #include "study_runs.hpp"
 
 namespace kith {
@@ -110,47 +109,31 @@ TEST_F(StudyRunTest, RefusesUnfinishedWorkOfAnotherStudyUnlessTold) {
   EXPECT_EQ((StudyRun{folder_, other(), replace}).num_resumed(), 0u);
 }
 
-// Twenty teams more, later, are the same as all of them at once, whatever ends the program in between.
+// Twenty teams more, later, are the same as all of them at once.
 TEST_F(StudyRunTest, AddsTeamsToFewerReplicatesWithTheSameBytes) {
-  struct End : std::exception {};
-  const auto fewer = [] { return quick_study({"replicates=2"}); };
   for (const bool is_finished : {true, false}) {
-    for (const std::string instant : {"extending", "extended", "team", "none"}) {
-      const auto folder = scratch_.path() / (instant + (is_finished ? "1" : "0"));
-      if (is_finished) {
-        StudyRun first{folder, fewer(), how()};
-        ASSERT_TRUE(first.teach(item_delivery()));
-        (void)first.publish({});
-      } else {
-        std::atomic<bool> stop{false};
-        auto options = how();
-        options.threads = 1;
-        options.on_progress = [&](std::size_t done, std::size_t, std::size_t) { stop = stop || done >= 1; };
-        options.stopped = [&] { return stop.load(); };
-        StudyRun first{folder, fewer(), options};
-        EXPECT_FALSE(first.teach(item_delivery()));
-      }
-      auto options = how();
-      options.on_instant = [&](const std::string& now) {
-        if (now == instant) throw End{};
-      };
-      try {
-        StudyRun cut_short{folder, quick_study(), options};
-        (void)cut_short.teach(item_delivery());
-      } catch (const std::exception&) {  // as if the program had ended there
-      }
-      // A run that is published again has still grown. Only what was published before can have been analysed.
-      for (const bool again : {false, true}) {
-        StudyRun rest{folder, quick_study(), how()};
-        EXPECT_GE(rest.num_resumed(), is_finished || again ? 4u : 1u) << instant;
-        ASSERT_TRUE(rest.teach(item_delivery()));
-        (void)rest.publish({});
-        EXPECT_EQ(tables_in(folder), expected()) << instant;
-        const auto manifest = nlohmann::json::parse(PublishedRun::open(folder).manifest());
-        EXPECT_EQ(manifest.value("grown", std::vector<std::string>{}).size(), is_finished ? 1u : 0u) << instant;
-      }
-      EXPECT_FALSE(fs::exists(folder / "study.extended.sqlite"));
+    const auto folder = scratch_.path() / (is_finished ? "whole" : "part");
+    auto options = how();
+    options.threads = 1;
+    std::atomic<bool> stop{false};
+    options.on_progress = [&](std::size_t, std::size_t, std::size_t) { stop = !is_finished; };
+    options.stopped = [&] { return stop.load(); };
+    {
+      StudyRun first{folder, quick_study({"replicates=2"}), options};
+      EXPECT_EQ(first.teach(item_delivery()), is_finished);
+      if (is_finished) (void)first.publish({});
     }
+    // A run that is published again has still grown. Only what was published before can have been analysed.
+    for (const bool again : {false, true}) {
+      StudyRun rest{folder, quick_study(), how()};
+      EXPECT_GE(rest.num_resumed(), is_finished || again ? 4u : 1u);
+      ASSERT_TRUE(rest.teach(item_delivery()));
+      (void)rest.publish({});
+      EXPECT_EQ(tables_in(folder), expected());
+      const auto manifest = nlohmann::json::parse(PublishedRun::open(folder).manifest());
+      EXPECT_EQ(manifest.value("grown", std::vector<std::string>{}).size(), is_finished ? 1u : 0u);
+    }
+    EXPECT_FALSE(fs::exists(folder / "study.extended.sqlite"));
   }
 }
 
@@ -251,44 +234,6 @@ TEST_F(StudyRunTest, DoesNotPublishIntoAnotherFolderOfTheSameName) {
   fs::create_directory(folder_);
   EXPECT_EQ(kind_of_failure([&] { (void)run.publish({}); }), ErrorKind::kIo);
   EXPECT_TRUE(fs::is_empty(folder_));
-}
-
-// What ends the publication between any two of its steps leaves the old results or the new ones, never both.
-TEST_F(StudyRunTest, IsPublishedAsAWholeWhateverEndsIt) {
-  struct End : std::exception {};
-  const auto other = [] { return quick_study({"seed=2"}); };
-  const auto whole = scratch_.path() / "other";
-  {
-    StudyRun run{whole, other(), how()};
-    ASSERT_TRUE(run.teach(item_delivery()));
-    (void)run.publish({});
-  }
-  const auto after = tables_in(whole);
-  (void)run(folder_);
-  for (const std::string instant :
-       {"staged", "generation", "inputs", "log.txt", "manifest.json", "tables", "timings.csv", "published"}) {
-    const auto folder = scratch_.path() / instant;
-    fs::copy(folder_, folder, fs::copy_options::recursive);
-    auto options = how();
-    options.replace = true;
-    options.on_instant = [&](const std::string& now) {
-      if (now == instant) throw End{};
-    };
-    {
-      StudyRun run{folder, other(), options};
-      ASSERT_TRUE(run.teach(item_delivery()));
-      EXPECT_THROW((void)run.publish({}), End) << instant;
-    }
-    const auto published = PublishedRun::open(folder);
-    const bool is_new = instant != "staged";
-    EXPECT_EQ(tables_in(folder), is_new ? after : expected()) << instant;
-    EXPECT_EQ(freeze(read_run_folder(folder)), freeze(is_new ? other() : quick_study())) << instant;
-    for (const auto& [name, hash] : published.hashes()) EXPECT_EQ(sha256(published.read(name)), hash) << instant;
-    StudyRun again{folder, other(), how()};
-    EXPECT_EQ(again.num_resumed(), 6u);
-    (void)again.publish({});
-    EXPECT_EQ(tables_in(folder), after) << instant;
-  }
 }
 
 // Learners of type P cannot be drawn, so every team with one of them fails.

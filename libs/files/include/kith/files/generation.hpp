@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,10 +26,8 @@ class Generation {
 
   /// Puts them in place of those of the same name. Their bytes must be on the disk; the entries of folders are brought
   /// there now.
-  /// @param removed   names that the folder no longer holds afterwards.
-  /// @param observer  is told "generation" once it is committed, and the name of everything that has been moved.
-  void commit(const std::vector<std::string>& removed = {},
-              const std::function<void(const std::string& instant)>& observer = {});
+  /// @param removed  names that the folder no longer holds afterwards.
+  void commit(const std::vector<std::string>& removed = {});
 
  private:
   std::filesystem::path folder_;
@@ -42,7 +39,7 @@ class Generation {
 
 /// Finishes a commit that was interrupted; otherwise does nothing. The lock must be held.
 /// @throws kith::Error (kIo)
-void settle(const std::filesystem::path& folder, const std::function<void(const std::string& instant)>& observer = {});
+void settle(const std::filesystem::path& folder);
 
 /// The same for readers, who hold no lock. @throws kith::Error kBusy if another process is at it for too long, kIo if
 /// it cannot be finished by this process.

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -100,12 +99,8 @@ class RunFolder {
   /// Writes the inputs and a manifest that says which shard this is, such as "2/3"; tables that were there are removed.
   void publish_shard(const Study& study, const std::string& shard, std::size_t num_teams, const RunFacts& facts);
 
-  /// From now on `observer` is told where publish() is, by name: for tests that end the program there.
-  void watch(std::function<void(const std::string& instant)> observer) { observer_ = std::move(observer); }
-
  private:
   void check_content(bool replace);
-  void reach(const std::string& instant) const;
   void write_inputs(const std::filesystem::path& folder) const;
   void commit(Generation& generation, const std::string& manifest, const RunFacts& facts,
               const std::vector<std::string>& removed);
@@ -116,7 +111,6 @@ class RunFolder {
   bool made_ = false;
   bool has_results_ = false;
   bool published_ = false;
-  std::function<void(const std::string& instant)> observer_;
 };
 
 /// The name of the journal in a run folder.

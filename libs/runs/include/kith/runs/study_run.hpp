@@ -40,8 +40,6 @@ struct StudyRunOptions {
   /// Called after every team, one call at a time.
   std::function<void(std::size_t done, std::size_t total, std::size_t failed)> on_progress;
   std::function<bool()> stopped;  ///< Asked often, from any thread; once true, what is finished is saved.
-  /// Told where the run is ("team", "commit", "committed", and instants of publishing), for tests that end it there.
-  std::function<void(const std::string& instant)> on_instant;
 };
 
 /// One run of a study into a folder, from opening it to publishing tables. What is finished is saved in the folder's
