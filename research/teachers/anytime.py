@@ -172,14 +172,21 @@ def page(cells, note):
     names = list(dict.fromkeys(cell[:2] for cell in cells))
     print("\nOf domains made by chance, the table has those in which `plan` loses.\n\n| domain |",
           *(f" {k} |" for k in SHOWN), "\n|---|", "---|" * len(SHOWN), sep="")
+    beside = []  # lost where the table has no column
     for domain, kind in names:
-        row = []
-        for k in SHOWN:
+        title, row, any_lost = domain if kind == "bayesian" else f"{domain}, {kind}", [], False
+        for k in ITEMS:
             plan, _, name, best, _, is_lost = compare(cells[domain, kind, k])
             text = f"{plan:.2g}, {name} {best:.2g}"
-            row.append(f" **{text}** |" if is_lost else f" {text} |")
-        if not domain.startswith("random-") or "**" in "".join(row):
-            print(f"| {domain} |" if kind == "bayesian" else f"| {domain}, {kind} |", *row, sep="")
+            any_lost = any_lost or is_lost
+            if k in SHOWN:
+                row.append(f" **{text}** |" if is_lost else f" {text} |")
+            elif is_lost:
+                beside.append(f"{title} at {k} items ({text})")
+        if not domain.startswith("random-") or any_lost:
+            print(f"| {title} |", *row, sep="")
+    if beside:
+        print(f"\nLost between the columns: {'; '.join(beside)}.")
 
 
 def at(team, k):
