@@ -1,4 +1,4 @@
-#include "kith/analysis/effect_intervals.hpp"
+#include "kith/analysis/effect_size.hpp"
 
 #include <cmath>
 #include <stdexcept>

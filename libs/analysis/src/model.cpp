@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kith/analysis/effect_intervals.hpp"
+#include "kith/analysis/effect_size.hpp"
 
 namespace kith {
 Estimable<Interval> eta_squared_of(const Estimable<TestResult>& test, double alpha) {

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "kith/analysis/effect_intervals.hpp"
+#include "kith/analysis/effect_size.hpp"
 #include "kith/analysis/moments.hpp"
 #include "kith/analysis/team_difference.hpp"
 #include "kith/files/column_names.hpp"

@@ -1,4 +1,4 @@
-#include "kith/analysis/team_selection.hpp"
+#include "kith/analysis/effect.hpp"
 
 #include <algorithm>
 

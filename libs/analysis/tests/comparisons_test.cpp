@@ -10,7 +10,6 @@
 #include "common.hpp"
 #include "kith/analysis/anova.hpp"
 #include "kith/analysis/distributions.hpp"
-#include "kith/analysis/effect_intervals.hpp"
 #include "kith/analysis/effect_size.hpp"
 #include "kith/analysis/tests.hpp"
 #include "reference.hpp"

@@ -1,4 +1,4 @@
-#include "exact_vector.hpp"
+#include "reward.hpp"
 
 #include <algorithm>
 #include <array>

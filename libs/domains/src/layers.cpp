@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "kith/domains/occupancy_grid.hpp"
-#include "kith/domains/world_combinations.hpp"
 
 namespace kith::detail {
 namespace {

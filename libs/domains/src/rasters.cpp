@@ -1,4 +1,4 @@
-#include "kith/domains/rasters.hpp"
+#include "kith/domains/layers.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "kith/domains/grey_image.hpp"
-#include "kith/domains/layers.hpp"
 
 namespace kith::detail {
 namespace {

@@ -4,9 +4,7 @@
 
 #include "kith/domains/family_map.hpp"
 #include "kith/domains/layers.hpp"
-#include "kith/domains/rasters.hpp"
 #include "kith/domains/thinning.hpp"
-#include "kith/domains/world_combinations.hpp"
 
 namespace kith::detail {
 namespace {

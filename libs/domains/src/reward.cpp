@@ -4,10 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "exact_vector.hpp"
 #include "kith/core/text.hpp"
 #include "kith/geometry/cone.hpp"
-#include "wording.hpp"
 
 namespace kith::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "wording.hpp"
+#include "reward.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "kith/domains/world_combinations.hpp"
+#include "kith/domains/layers.hpp"
 
 #include <algorithm>
 #include <set>

@@ -6,8 +6,6 @@
 #include "kith/core/error.hpp"
 #include "kith/files/csv_reader.hpp"
 #include "kith/files/table_text.hpp"
-#include "kith/fit/import_run.hpp"
-#include "kith/fit/import_trials.hpp"
 #include "open_table.hpp"
 
 namespace kith {

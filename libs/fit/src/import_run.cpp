@@ -1,4 +1,4 @@
-#include "kith/fit/import_run.hpp"
+#include "kith/fit/import_logs.hpp"
 
 #include <algorithm>
 #include <map>

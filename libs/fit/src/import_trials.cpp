@@ -1,4 +1,4 @@
-#include "kith/fit/import_trials.hpp"
+#include "kith/fit/import_logs.hpp"
 
 #include <algorithm>
 #include <cmath>

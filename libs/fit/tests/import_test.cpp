@@ -11,7 +11,6 @@
 #include "kith/fit/answer_regions.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/import_logs.hpp"
-#include "kith/fit/import_trials.hpp"
 #include "resealed.hpp"
 #include "simulated_people.hpp"
 

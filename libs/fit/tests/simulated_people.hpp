@@ -5,7 +5,7 @@
 #include <string>
 
 #include "kith/core/error.hpp"
-#include "kith/fit/import_run.hpp"
+#include "kith/fit/import_logs.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "scratch_folder.hpp"

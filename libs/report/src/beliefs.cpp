@@ -1,4 +1,4 @@
-#include "beliefs.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "estimate_tables.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "exam_tables.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,10 +1,9 @@
-#include "lessons.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 
-#include "beliefs.hpp"
 #include "kith/explain/board_json.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/column_names.hpp"

@@ -1,4 +1,4 @@
-#include "matrices.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <array>

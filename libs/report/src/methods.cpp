@@ -1,4 +1,4 @@
-#include "methods.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "people_tables.hpp"
+#include "sections.hpp"
 
 #include "kith/analysis/effect_size.hpp"
 #include "team_tables.hpp"

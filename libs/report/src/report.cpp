@@ -5,21 +5,14 @@
 #include <cmath>
 #include <span>
 
-#include "beliefs.hpp"
-#include "estimate_tables.hpp"
-#include "exam_tables.hpp"
 #include "first_screen.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "kith/core/text.hpp"
-#include "lessons.hpp"
-#include "matrices.hpp"
-#include "methods.hpp"
 #include "outcomes.hpp"
 #include "parameters.hpp"
-#include "people_tables.hpp"
+#include "sections.hpp"
 #include "sentences.hpp"
-#include "session_report.hpp"
 #include "session_tables.hpp"
 #include "team_tables.hpp"
 

@@ -1,4 +1,4 @@
-#include "session_report.hpp"
+#include "sections.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <functional>
 
-#include "beliefs.hpp"
 #include "parameters.hpp"
+#include "sections.hpp"
 
 namespace kith::detail {
 namespace {

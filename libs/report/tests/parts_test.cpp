@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "answers.hpp"
-#include "beliefs.hpp"
 #include "bibliography.hpp"
 #include "kith/geometry/outline.hpp"
 #include "parameters.hpp"
+#include "sections.hpp"
 
 namespace kith::detail {
 namespace {

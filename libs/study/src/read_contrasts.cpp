@@ -1,4 +1,4 @@
-#include "read_contrasts.hpp"
+#include "read_study_spec.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 
 #include "kith/files/column_names.hpp"
 #include "kith/study/outcomes.hpp"
-#include "read_study_spec.hpp"
 
 namespace kith {
 namespace {

@@ -1,4 +1,4 @@
-#include "read_group.hpp"
+#include "read_study_spec.hpp"
 
 #include <algorithm>
 #include <array>

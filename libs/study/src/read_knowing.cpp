@@ -1,8 +1,6 @@
-#include "read_knowing.hpp"
+#include "read_study_spec.hpp"
 
 #include <algorithm>
-
-#include "read_prior.hpp"
 
 namespace kith {
 

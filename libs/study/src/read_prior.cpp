@@ -1,4 +1,4 @@
-#include "read_prior.hpp"
+#include "read_study_spec.hpp"
 
 #include <algorithm>
 

@@ -12,10 +12,6 @@
 #include "kith/learners/presumed_kinds.hpp"
 #include "kith/study/outcomes.hpp"
 #include "parameters_toml.hpp"
-#include "read_contrasts.hpp"
-#include "read_group.hpp"
-#include "read_knowing.hpp"
-#include "read_prior.hpp"
 #include "study_keys.hpp"
 
 namespace kith {

@@ -7,7 +7,6 @@
 #include "kith/core/error.hpp"
 #include "kith/files/document.hpp"
 #include "kith/files/file.hpp"
-#include "read_prior.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {

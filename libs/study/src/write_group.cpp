@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "parameters_toml.hpp"
-#include "read_group.hpp"
+#include "read_study_spec.hpp"
 
 namespace kith {
 namespace {

@@ -5,8 +5,6 @@
 #include "kith/study/study_file.hpp"
 #include "kith/teaching/learner_bank.hpp"
 #include "parameters_toml.hpp"
-#include "read_group.hpp"
-#include "read_prior.hpp"
 #include "read_study_spec.hpp"
 #include "study_keys.hpp"
 

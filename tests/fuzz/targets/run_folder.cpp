@@ -10,7 +10,7 @@
 #include "../small_run.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
-#include "kith/fit/import_run.hpp"
+#include "kith/fit/import_logs.hpp"
 #include "kith/report/report.hpp"
 #include "kith/runs/verify.hpp"
 

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "../fuzzing.hpp"
-#include "kith/fit/import_trials.hpp"
+#include "kith/fit/import_logs.hpp"
 
 using namespace kith;
 

@@ -8,7 +8,6 @@
 #include "kith/analysis/estimable.hpp"
 #include "kith/analysis/factor.hpp"
 #include "kith/analysis/fixed_effects.hpp"
-#include "kith/analysis/term_test.hpp"
 #include "kith/analysis/tests.hpp"
 
 namespace kith {
@@ -58,5 +57,12 @@ struct NestedModel {
 [[nodiscard]] Estimable<NestedModel> fit_nested_model(std::span<const double> response, std::span<const Factor> factors,
                                                       std::span<const std::vector<std::size_t>> terms,
                                                       std::span<const Factor> groups, double confidence = 0.95);
+
+/// The test of a term of a model: that none of its effects differs from 0.
+struct TermTest {
+  std::string name;    ///< "strategy:composition"
+  std::size_t df = 0;  ///< Of the numerator: what the term adds to the model without it.
+  Estimable<TestResult> test = Estimable<TestResult>::impossible("not computed");
+};
 
 }  // namespace kith

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kith/domains/family_map.hpp"
@@ -71,5 +72,19 @@ inline constexpr std::size_t kMaxCells = 1'000'000;
 
 // The cells of an image in which a cell has n x n pixels, and the most frequent grey of each, the darkest of several.
 [[nodiscard]] GreyImage scaled_down(const GreyImage& image, std::size_t n);
+
+// Reads [[map.raster]], and makes each known as a place that conditions can name: where its value is not 0.
+void read_rasters(TomlReader& map, FamilyMap& family_map, NamedFiles& files, TomlReport& report,
+                  ModelReport& model_report);
+
+// The values of all rasters in all MDPs. Distances are steps of a robot that goes around walls; with kSeen a straight
+// line between the centres of two cells must not go through a wall (Bresenham's cells between them).
+void compute_rasters(FamilyMap& family_map, TomlReport& report);
+
+// A character that no symbol has yet; nothing if there is none left.
+[[nodiscard]] std::optional<char> unused_glyph(const FamilyMap& family_map, std::string_view preferred);
+
+// Gives every combination of things that can share a cell a symbol, so that it can be drawn.
+void name_combinations(FamilyMap& family_map);
 
 }  // namespace kith::detail
