@@ -20,7 +20,7 @@ configure_package_config_file(
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibqrencode.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindLibqrencode.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindLibyaml.cmake DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET kith)
@@ -59,7 +59,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev, libqrencode-dev, libyaml-dev")
+  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libssl-dev, libsqlite3-dev, libqrencode-dev, libyaml-dev")
 set(CPACK_COMPONENTS_ALL program development)
 if(TARGET kith_mpi)  # it alone needs MPI, which brings 30 packages
   list(APPEND CPACK_COMPONENTS_ALL mpi)

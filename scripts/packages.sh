@@ -7,7 +7,7 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 
 packages_to_build=(
   g++ cmake ninja-build
-  libeigen3-dev librandom123-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
+  libeigen3-dev librandom123-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
   libssl-dev libsqlite3-dev libqrencode-dev libyaml-dev libboost-math-dev libboost-dev
   nodejs npm
 )

@@ -1,69 +1,72 @@
 #include "csv_records.hpp"
 
 #include <algorithm>
-#include <new>
+#include <utility>
 
 namespace kith::detail {
 namespace {
 
-int never_space(unsigned char) { return 0; }
-
-// libcsv fed line by line, so that the places of records are known.
+// Takes a text line by line, so that the places of records are known. Quotes stand at both ends of a field or are
+// doubled inside of it, as RFC 4180 has it; blanks belong to fields.
 class Splitter {
  public:
-  explicit Splitter(char separator) : separator_{separator} { open(); }
-  ~Splitter() { csv_free(&parser_); }
-  Splitter(const Splitter&) = delete;
-  Splitter& operator=(const Splitter&) = delete;
+  explicit Splitter(char separator) : separator_{separator} {}
 
   // Whether the line ends a record (or is malformed).
   bool feed(std::string_view line, CsvRecord& record) {
-    ended_ = false;
-    record_ = &record;
-    if (csv_parse(&parser_, line.data(), line.size(), on_field, on_end, this) != line.size()) give_up(record);
-    return ended_;
+    bool ended = false;
+    for (const char c : line) {
+      if (c == '"') {
+        if (state_ == State::kPlain) return give_up(record);
+        if (state_ == State::kQuote) field_ += c;
+        state_ = state_ == State::kQuoted ? State::kQuote : State::kQuoted;
+      } else if (state_ == State::kQuoted) {
+        field_ += c;
+      } else if (c == separator_) {
+        end_field(record, State::kField);
+      } else if (c == '\n' || c == '\r') {
+        if (state_ == State::kRecord) continue;
+        end_field(record, State::kRecord);
+        ended = true;
+      } else if (state_ == State::kQuote) {
+        return give_up(record);
+      } else {
+        field_ += c;
+        state_ = State::kPlain;
+      }
+    }
+    return ended;
   }
 
   // Ends a record that has no line end.
   bool finish(CsvRecord& record) {
-    ended_ = false;
-    record_ = &record;
-    if (csv_fini(&parser_, on_field, on_end, this) != 0) give_up(record);
-    return ended_;
+    if (state_ == State::kQuoted) return give_up(record);
+    if (state_ == State::kRecord) return false;
+    end_field(record, State::kRecord);
+    return true;
   }
 
  private:
-  void open() {
-    if (csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI | CSV_EMPTY_IS_NULL) != 0) throw std::bad_alloc{};
-    csv_set_space_func(&parser_, never_space);  // blanks belong to the fields
-    csv_set_delim(&parser_, static_cast<unsigned char>(separator_));
-  }
+  // What was read before: nothing of a record, or of a field; part of a field; a quote inside of quotes or at their end.
+  enum class State { kRecord, kField, kPlain, kQuoted, kQuote };
 
+  void end_field(CsvRecord& record, State next) {
+    const bool is_missing = field_.empty() && state_ != State::kQuote;
+    record.fields.push_back(is_missing ? std::nullopt : std::optional{std::exchange(field_, {})});
+    state_ = next;
+  }
   // Forgets the rest of the record; the next line begins a new one.
-  void give_up(CsvRecord& record) {
-    const bool out_of_memory = csv_error(&parser_) == CSV_ENOMEM;
-    csv_free(&parser_);
-    open();
-    if (out_of_memory) throw std::bad_alloc{};
+  bool give_up(CsvRecord& record) {
+    field_.clear();
+    state_ = State::kRecord;
     record.malformed = true;
     record.fields.clear();
-    ended_ = true;
+    return true;
   }
-
-  static void on_field(void* data, std::size_t size, void* self) {
-    auto& fields = static_cast<Splitter*>(self)->record_->fields;
-    if (data == nullptr) {
-      fields.emplace_back();
-    } else {
-      fields.emplace_back(std::string(static_cast<const char*>(data), size));
-    }
-  }
-  static void on_end(int, void* self) { static_cast<Splitter*>(self)->ended_ = true; }
 
   char separator_;
-  csv_parser parser_{};
-  CsvRecord* record_ = nullptr;
-  bool ended_ = false;
+  State state_ = State::kRecord;
+  std::string field_;
 };
 
 // "sep=;" in a line of its own, which spreadsheets write and read.

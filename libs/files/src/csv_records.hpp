@@ -1,7 +1,5 @@
 #pragma once
 
-#include <csv.h>
-
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -11,7 +9,7 @@
 
 namespace kith::detail {
 
-// A record of a CSV text, split by libcsv.
+// A record of a CSV text.
 struct CsvRecord {
   std::size_t line = 0;                            // where it begins, from 1
   std::string_view text;                           // all of its lines

@@ -12,6 +12,13 @@
 
 namespace kith {
 
+/// The test of a term of a model: that none of its effects differs from 0.
+struct TermTest {
+  std::string name;    ///< "strategy:composition"
+  std::size_t df = 0;  ///< Of the numerator: what the term adds to the model without it.
+  Estimable<TestResult> test = Estimable<TestResult>::impossible("not computed");
+};
+
 /// What rows of a group have in common.
 struct GroupVariance {
   std::string name;
@@ -57,12 +64,5 @@ struct NestedModel {
 [[nodiscard]] Estimable<NestedModel> fit_nested_model(std::span<const double> response, std::span<const Factor> factors,
                                                       std::span<const std::vector<std::size_t>> terms,
                                                       std::span<const Factor> groups, double confidence = 0.95);
-
-/// The test of a term of a model: that none of its effects differs from 0.
-struct TermTest {
-  std::string name;    ///< "strategy:composition"
-  std::size_t df = 0;  ///< Of the numerator: what the term adds to the model without it.
-  Estimable<TestResult> test = Estimable<TestResult>::impossible("not computed");
-};
 
 }  // namespace kith
