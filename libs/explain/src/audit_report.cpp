@@ -187,19 +187,28 @@ std::string in_words(Understanding understanding) {
   return "cannot tell yet";
 }
 
-std::string verdict_in_words(const ComponentAudit& audit) {
-  const auto word = in_words(audit.understanding);
-  switch (audit.doubt) {
+namespace {
+
+// Why nothing can be told.
+std::string doubt_in_words(Doubt doubt) {
+  switch (doubt) {
     case Doubt::kNone:
-      return word;
+      return "";
     case Doubt::kAnswers:
-      return word + ": the answers do not decide it";
+      return "the answers do not decide it";
     case Doubt::kLearning:
-      return word + ": somebody who guesses or learns nothing might answer like this";
+      return "somebody who guesses or learns nothing might answer like this";
     case Doubt::kStopping:
       break;
   }
-  return word + ": somebody who has stopped learning might answer like this";
+  return "somebody who has stopped learning might answer like this";
+}
+
+}  // namespace
+
+std::string verdict_in_words(const ComponentAudit& audit) {
+  const auto doubt = doubt_in_words(audit.doubt);
+  return in_words(audit.understanding) + (doubt.empty() ? "" : ": " + doubt);
 }
 
 std::string advice_in_words(const ComponentAudit& audit) {
@@ -271,7 +280,8 @@ Json component_json(const Atlas& atlas, const ComponentAudit& audit) {
   return {
       {"component", audit.component + 1},
       {"understanding", name_of(audit.understanding)},
-      {"verdict", verdict_in_words(audit)},
+      {"verdict", in_words(audit.understanding)},
+      {"doubt", audit.doubt == Doubt::kNone ? Json{} : Json(doubt_in_words(audit.doubt))},
       {"probability", audit.level.probability},
       {"level", {{"mean", audit.level.mean}, {"low", audit.level.low}, {"high", audit.level.high}}},
       {"periods", audit.periods},
@@ -354,6 +364,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
   const auto older = older_in_words(report);
   return {{"schema", "kith.audit/1"},
           {"title", "Who understands what: " + name_of_folder(report.source)},
+          {"name", name_of_folder(report.source)},
           {"program", program},
           {"source", report.source},
           {"domain", board_domain_json(atlas.domain())},

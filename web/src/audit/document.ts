@@ -16,7 +16,8 @@ export interface Misconception {
 export interface Judged {
   component: number; // from 1
   understanding: Understanding;
-  verdict: string; // in words, with a reason behind a colon where nothing can be told
+  verdict: string; // in words
+  doubt: string | null; // why nothing can be told
   level: { mean: number; low: number; high: number };
   periods: number;
   tests: number;
@@ -39,7 +40,7 @@ export interface Person {
 
 export interface Audit {
   schema: string;
-  title: string;
+  name: string; // of the folder with the answers
   program: string;
   domain: MapDomain;
   enough: number;

@@ -3,9 +3,10 @@ import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Patterns } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
+import { counted } from '../shared/texts';
 import { themeToggle } from '../shared/theme';
 import type { Audit, Judged, Person } from './document';
-import { counted, percent, PersonView } from './person';
+import { percent, PersonView } from './person';
 
 const kUrgent = ['misconception', 'cannot-tell', 'not-taught', 'understands'] as const;
 const kOpen = 10; // so many of those who need something are opened
@@ -15,7 +16,7 @@ const urgency = ({ understanding, level }: Judged): number => kUrgent.indexOf(un
 const firstNeed = ({ components }: Person): Judged | undefined => [...components].sort((a, b) => urgency(a) - urgency(b))[0];
 
 export function Page({ audit }: { audit: Audit }): JSX.Element {
-  const { people, title, program } = audit;
+  const { people, name, program } = audit;
   const legend = useMemo(() => new Legend(audit.domain), [audit]);
   const order = people
     .map((person) => ({ person, first: firstNeed(person) }))
@@ -25,7 +26,7 @@ export function Page({ audit }: { audit: Audit }): JSX.Element {
       <Patterns surfaces={legend.surfaces} />
       <header class="masthead">
         <p class="kicker">
-          {title.split(': ')[1]}: {counted(people.length, 'person').replace('persons', 'people')}, judged by their answers
+          {name}: {counted(people.length, 'person', 'people')}, judged by their answers
         </p>
         <span ref={(place) => place?.replaceChildren(themeToggle())} />
       </header>

@@ -5,11 +5,10 @@ import type { Legend } from '../shared/board/legend';
 import type { Board } from '../shared/board/types';
 import { WorldName } from '../shared/play/board_pane';
 import { SmallBoard } from '../shared/play/small_board';
-import { sentence } from '../shared/texts';
+import { counted, sentence } from '../shared/texts';
 import type { Audit, Judged, Person } from './document';
 
 export const percent = (share: number): string => `${Math.round(100 * share)}\u00a0%`;
-export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
 
 interface Props {
   audit: Audit;
@@ -71,7 +70,7 @@ function needText({ understanding, misconception, advice }: Judged, name: string
 const Verdict = ({ judged: { understanding, verdict } }: { judged: Judged }): JSX.Element => (
   <span class={`verdict ${understanding}`}>
     {understanding === 'understands' && '\u2713 '}
-    {verdict.split(': ')[0]}
+    {verdict}
   </span>
 );
 
@@ -89,13 +88,13 @@ function Level({ level: { mean, low, high }, enough, isKnown }: Pick<Judged, 'le
 }
 
 function Evidence({ judged, name, audit, legend }: { judged: Judged; name: string; audit: Audit; legend: Legend }): JSX.Element {
-  const { understanding, verdict, correct, tests, periods, misconception, test, advice } = judged;
+  const { understanding, doubt, correct, tests, periods, misconception, test, advice } = judged;
   const isSure = understanding === 'misconception';
   return (
     <div class="evidence">
       <h4>{sentence(name).replace(/\.$/, '')}</h4>
       <p>
-        {correct} of {counted(tests, 'answer')} right in {counted(periods, 'lesson')}. {sentence(verdict.split(': ')[1] ?? '')}
+        {correct} of {counted(tests, 'answer')} right in {counted(periods, 'lesson')}. {sentence(doubt ?? '')}
       </p>
       {misconception && (
         <>

@@ -3,7 +3,8 @@ import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { clockText } from './clock';
 import type { FacilitatorView, LogEntry, RoomRow } from './protocol';
-import { actorText, loggedText, roomTitle, upperFirst } from './words';
+import { capitalised } from '../shared/texts';
+import { actorText, loggedText, roomTitle } from './words';
 
 interface LogTableProps {
   log: LogEntry[];
@@ -32,8 +33,8 @@ export function LogTable({ log, rooms, withRoom }: LogTableProps): JSX.Element {
             <tr>
               <td class="time">{clockText(at_ms)}</td>
               {withRoom && <td>{room ? (titles.get(room) ?? room) : ''}</td>}
-              <td>{upperFirst(actorText(actor, rooms.find(({ id }) => id === room)))}</td>
-              <td>{upperFirst(loggedText(what))}</td>
+              <td>{capitalised(actorText(actor, rooms.find(({ id }) => id === room)))}</td>
+              <td>{capitalised(loggedText(what))}</td>
               <td>{reason}</td>
             </tr>
           ))}

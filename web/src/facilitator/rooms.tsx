@@ -6,7 +6,8 @@ import { minutesText, useNow } from './clock';
 import { PresenceMark, whereabouts } from './live/group_table';
 import type { FacilitatorView, RoomRow, RoomStage, SeatRow } from './protocol';
 import { Explained } from './tip';
-import { attention, counted, endText, kStages, roomTitle, seatTitle } from './words';
+import { counted } from '../shared/texts';
+import { attention, endText, kStages, roomTitle, seatTitle } from './words';
 
 type Filter = 'all' | 'attention' | RoomStage;
 
@@ -43,7 +44,7 @@ export function Rooms({ view, onOpen }: RoomsProps): JSX.Element {
   return (
     <section class="page" aria-labelledby="rooms-title">
       <h2 id="rooms-title">Rooms</h2>
-      <p class="hint">{`${counted(view.rooms.length, 'room')}; ${here} of ${counted(people.length, 'person').replace('persons', 'people')} connected.`}</p>
+      <p class="hint">{`${counted(view.rooms.length, 'room')}; ${here} of ${counted(people.length, 'person', 'people')} connected.`}</p>
       <div class="filters">
         <div role="group" aria-label="Show rooms" class="chips">
           {kFilters.map(({ filter: one, label }) => (

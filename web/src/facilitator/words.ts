@@ -1,5 +1,6 @@
 // Names of what the page shows, and what its terms mean.
 import type { Stage } from '../live/protocol';
+import { capitalised } from '../shared/texts';
 import type { Presence, RoomRow, RoomStage, SeatRow, StudyInfo } from './protocol';
 
 export const kStages: Record<RoomStage, string> = {
@@ -50,7 +51,7 @@ const kOtherLimits: Record<string, string> = {
 
 const wordsOf = (stage: string): StageWords | undefined => (kPersonStages as Record<string, StageWords>)[stage];
 export const personStage = (stage: string): string => wordsOf(stage)?.doing ?? stage;
-export const phaseName = (phase: string): string => wordsOf(phase)?.phase ?? kOtherPhases[phase] ?? upperFirst(phase);
+export const phaseName = (phase: string): string => wordsOf(phase)?.phase ?? kOtherPhases[phase] ?? capitalised(phase);
 // What the limit of a study is of, by its key: "watch_s".
 export const limitName = (key: string): string => wordsOf(key.replace(/_s$/, ''))?.limit ?? kOtherLimits[key] ?? key;
 
@@ -141,11 +142,8 @@ export const typeLabel = (study: StudyInfo, letter: string | undefined): string 
   return study.types.find((type) => type.letter === letter)?.label ?? letter;
 };
 
-export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
-
 export const estimateText = (estimate: number | undefined): string => estimate?.toFixed(2) ?? '';
 
-export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
 
 // How it ended for somebody.
 const kStatuses: Record<string, string> = {

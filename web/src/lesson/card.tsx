@@ -11,10 +11,10 @@ import { countsOf } from '../shared/play/ledger';
 import { Mark } from '../shared/play/mark';
 import { RunsView, type Runs } from '../shared/play/runs';
 import { SmallBoard } from '../shared/play/small_board';
-import { t } from '../shared/texts';
+import { sentence, t } from '../shared/texts';
 import { isExample, type Card } from './cards';
 import { choiceText } from './choice';
-import { partingOf, playBoard, upperFirst, usePrinting, type Context, type Guess } from './context';
+import { partingOf, playBoard, usePrinting, type Context, type Guess } from './context';
 import type { Demonstration, Sentence, Test } from './document';
 import { askingText, Guessing } from './guess';
 
@@ -89,7 +89,15 @@ function pairsOf(context: Context, shown: Demonstration | Test, { mine, verdict 
   const taught: Pair = { title: isWrong ? 'Now this one' : title, other: shown.alternative, isMine: false, at: shown.decisive?.frame ?? null, reason: shown.reason };
   if (!isWrong) return [taught];
   if (!shown.alternative) return [own];
-  return why === shown.reason.split(': ')[0] ? [{ ...own, reason: shown.reason }] : [own, taught];
+  return isAlike(shown, mine, shown.alternative) ? [{ ...own, reason: shown.reason }] : [own, taught];
+}
+
+// Whether what the board was chosen for is to be said of the reader's path, too.
+function isAlike(shown: Demonstration, mine: Path, other: Path): boolean {
+  const at = shown.decisive?.frame ?? 0;
+  if (shown.runs) return partingOf(shown, mine) === at && mine.frames[at]?.action === other.frames[at]?.action;
+  const [a, b] = [mine, other].map(({ frames, repeats_from }) => String([repeats_from, countsOf(frames)]));
+  return a === b;
 }
 
 // Of the two paths that are drawn, where chance has no part in them.
@@ -168,13 +176,13 @@ function Reason({ reason, shown, word, isAsGood }: { reason: string; shown: Demo
   return (
     <div class="reasons">
       {isAsGood && <p>{t('feedback.right_other')}</p>}
-      {first !== '' && <p class="cost">{upperFirst(first)}.</p>}
-      {second !== '' && <p>{upperFirst(second)}.</p>}
+      {first !== '' && <p class="cost">{sentence(first)}</p>}
+      {second !== '' && <p>{sentence(second)}</p>}
       {about.length > 0 && <p>{word === 'right' ? t('feedback.showed') : 'What the robot has shown:'}</p>}
       {about.length > 0 && (
         <ul>
           {about.map((text) => (
-            <li>{upperFirst(text)}.</li>
+            <li>{sentence(text)}</li>
           ))}
         </ul>
       )}

@@ -11,6 +11,9 @@ const kMost = 12;
 
 export const isExample = (shown: Card['shown']): shown is Demonstration => 'reason' in shown;
 
+// A test that the shortest path answers tells nothing about whoever is right.
+const tells = ({ shown }: Card): boolean => isExample(shown) || shown.is_shortest_wrong;
+
 // What a lesson begins with, and what is offered when that is over. Of every part the first boards tell most.
 export function cardsOf({ components, fresh }: Lesson): { first: Card[]; more: Card[] } {
   const seen = new Set<string>();
@@ -24,7 +27,7 @@ export function cardsOf({ components, fresh }: Lesson): { first: Card[]; more: C
       ...tests.map((shown, i) => ({ name: `test.${number}.${i}`, kind: 'Test' as const, shown, rank: i + 0.5 })),
     ])
     .filter(isNew);
-  const best = new Set([...all].sort((a, b) => a.rank - b.rank).slice(0, kMost));
+  const best = new Set(all.filter(tells).sort((a, b) => a.rank - b.rank).slice(0, kMost));
   const unseen = fresh.map((shown, i): Card => ({ name: `fresh.${i}`, kind: 'New board', shown })).filter(isNew);
   return { first: all.filter((card) => best.has(card)), more: [...all.filter((card) => !best.has(card)), ...unseen] };
 }

@@ -110,9 +110,6 @@ export function playBoard(domain: Domain, { world, map, fences, world_name, star
   };
 }
 
-export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
-export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
-
 // The first step that two paths do not have in common.
 export function partingOf(a: Path, b: Path): number | null {
   const at = a.frames.findIndex((frame, i) => frame.action !== b.frames[i]?.action);

@@ -5,10 +5,11 @@ import { Patterns } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
 import { Button } from '../shared/play/button';
 import { enterGoesOn } from '../shared/play/keys';
+import { counted } from '../shared/texts';
 import { themeToggle } from '../shared/theme';
 import { CardView, Title, Whole } from './card';
 import { cardsOf, isSameAgain, kindOf, type Card } from './cards';
-import { counted, usePrinting, Worlds, type Context, type Guess } from './context';
+import { usePrinting, Worlds, type Context, type Guess } from './context';
 import type { Lesson } from './document';
 import { End } from './portrait';
 

@@ -2,9 +2,10 @@
 import type { JSX } from 'preact';
 import { Button } from '../shared/play/button';
 import { Brackets, type Bracket } from '../shared/play/brackets';
+import { counted, sentence } from '../shared/texts';
 import { Title, Whole } from './card';
 import type { Card } from './cards';
-import { counted, partingOf, upperFirst, usePrinting, type Context, type Guess } from './context';
+import { partingOf, usePrinting, type Context, type Guess } from './context';
 import type { Component, Demonstration } from './document';
 
 interface EndProps extends Context {
@@ -65,7 +66,7 @@ function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>):
     <ul class="lines">
       {some.map(({ text, board }) => (
         <li>
-          <p class="cost">{upperFirst(text)}.</p>
+          <p class="cost">{sentence(text)}</p>
           {board && <Whole {...context} board={board} other={board.runs ? null : board.alternative} otherKind="plain" at={board.decisive?.frame ?? null} />}
         </li>
       ))}
@@ -93,7 +94,7 @@ function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>):
 // One's first and last prediction, side by side.
 function FirstAndLast({ answers, ...context }: Context & Pick<EndProps, 'answers'>): JSX.Element | null {
   const [first, last] = [answers[0], answers.at(-1)];
-  if (!first || !last || answers.length < 2) return null;
+  if (!first || !last?.guess?.verdict?.isRight || answers.length < 2) return null;
   const one = ({ card: { shown }, guess }: typeof first, title: string): JSX.Element => {
     const other = guess?.verdict?.isRight ? null : (guess?.mine ?? null);
     return (

@@ -60,6 +60,9 @@ export const actionLabel = (name: string): string => lookUp(`action.${name}`) ??
 // With a capital letter in front: "Pick up".
 export const capitalised = (text: string): string => text.charAt(0).toLocaleUpperCase(language) + text.slice(1);
 
+// In English: "1 board", "2 boards".
+export const counted = (n: number, one: string, many = `${one}s`): string => `${n} ${n === 1 ? one : many}`;
+
 export const listed = (things: string[]): string => lists.format(things);
 
 // Sentences from the server name things, not cells.

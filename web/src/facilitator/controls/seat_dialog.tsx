@@ -4,7 +4,8 @@ import { useNow } from '../clock';
 import { answerText, whereabouts } from '../live/group_table';
 import type { Answer, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { LinkBox } from '../setup/link_box';
-import { counted, estimateText, roomTitle, seatTitle, typeLabel } from '../words';
+import { counted } from '../../shared/texts';
+import { estimateText, roomTitle, seatTitle, typeLabel } from '../words';
 import { type Action, lower, seatActions } from './actions';
 import { Dialog } from './dialog';
 

@@ -11,7 +11,7 @@ import { boardText, playedText } from '../../shared/play/words';
 import { useCalm, usePlayback } from '../../shared/playback';
 import type { LessonNow, RunnerUp, ShownBoard } from '../protocol';
 import { Explained } from '../tip';
-import { upperFirst } from '../words';
+import { capitalised } from '../../shared/texts';
 
 function useDrawing(board: PlayBoard): { domain: MapDomain; legend: Legend } {
   const key = JSON.stringify(board.domain);
@@ -60,7 +60,7 @@ export function LessonPanel({ lesson, period, isDeep }: { lesson: LessonNow | un
       {choice && <Shown key={`${period}/${choice.id}`} choice={choice} isDeep={isDeep} />}
       <div class="why-text">
         <p>
-          <b>Why:</b> {upperFirst(lesson.why)}
+          <b>Why:</b> {capitalised(lesson.why)}
           {!lesson.why.includes(lesson.source) && <span class="source"> Source: {lesson.source}.</span>}
         </p>
       </div>

@@ -4,7 +4,8 @@ import { duration } from '../../shared/duration';
 import { minutesText, useNow } from '../clock';
 import type { Answer, Forecast, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
-import { counted, isOver, seatTitle } from '../words';
+import { counted } from '../../shared/texts';
+import { isOver, seatTitle } from '../words';
 
 const kSlowest = 45_000; // ms; nobody is stuck before
 const kTimes = 3; // so many times as long as the group usually takes for an answer

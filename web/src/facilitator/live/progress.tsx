@@ -4,7 +4,8 @@ import { duration } from '../../shared/duration';
 import { useNow } from '../clock';
 import type { RoomDetail, RoomRow, Timer } from '../protocol';
 import { Explained } from '../tip';
-import { phaseName, upperFirst } from '../words';
+import { capitalised } from '../../shared/texts';
+import { phaseName } from '../words';
 
 const kStatus = { open: 'not learned yet', learned: 'learned', skipped: 'skipped' };
 
@@ -49,7 +50,7 @@ const kTimers: Record<string, string> = { session: 'Session', pause: 'Paused', l
 const isShown = ({ name, until_ms }: Timer): boolean => name !== 'session' || until_ms !== undefined;
 
 const timerName = ({ name }: Timer, phase: string): string =>
-  name === 'phase' ? phaseName(phase) : (kTimers[name] ?? upperFirst(name));
+  name === 'phase' ? phaseName(phase) : (kTimers[name] ?? capitalised(name));
 
 const isLate = ({ until_ms }: Timer, now: number): boolean => until_ms !== undefined && until_ms - now < 15_000;
 

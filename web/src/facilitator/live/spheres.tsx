@@ -4,7 +4,7 @@ import { useMemo } from 'preact/hooks';
 import { unpack } from '../../shared/globe';
 import { Globes, useTurn, type Space } from '../../shared/globes';
 import type { RoomDetail } from '../protocol';
-import { upperFirst } from '../words';
+import { capitalised } from '../../shared/texts';
 import { beliefKind, memberOf } from './beliefs';
 
 interface SpheresProps {
@@ -57,7 +57,7 @@ function NoSpheres({ detail, nameOf }: { detail: RoomDetail; nameOf: (belief: st
       <ul class="bars">
         {latest.map(([name, share]) => (
           <li>
-            <span>{upperFirst(nameOf(name))}</span>
+            <span>{capitalised(nameOf(name))}</span>
             <meter min={0} max={1} value={share} aria-label={`p(BEC), ${nameOf(name)}`} />
             <b>{share.toFixed(2)}</b>
           </li>

@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { Refused } from '../connection';
 import type { StudyInfo } from '../protocol';
-import { counted } from '../words';
+import { counted } from '../../shared/texts';
 
 const kMostSeats = 30;
 const kMostRooms = 200;
