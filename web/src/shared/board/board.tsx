@@ -69,7 +69,7 @@ export function BoardView(props: BoardProps): JSX.Element {
   // Of two paths that have been gone, it is the place where they separate that tells why, and what counts behind it.
   const fork = props.whole && walked >= last ? decisive?.cell : undefined;
   const reason = (props.chips ?? []).map((chip) => counting(chip, board.frames, other ?? [], first, thingsAt)).find((cell) => cell !== null);
-  const centred = fork ? between(fork, reason ?? fork) : frame.robot;
+  const centred = [fork ?? frame.robot, fork && reason].filter((place) => place !== undefined && place !== null);
   const drawing = (
     <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} {...(label === '' ? { 'aria-hidden': true } : { role: 'img', 'aria-label': label })}>
       {ground}
@@ -104,14 +104,6 @@ export function BoardView(props: BoardProps): JSX.Element {
       )}
     </div>
   );
-}
-
-const kNear = 10; // cells that the window of a phone shows
-
-// The middle of two places that a window shows together, else the first.
-function between(a: Place, b: Place): Place {
-  const isNear = Math.max(Math.abs(a[0] - b[0]), Math.abs(a[1] - b[1])) <= kNear;
-  return isNear ? [Math.round((a[0] + b[0]) / 2), Math.round((a[1] + b[1]) / 2)] : a;
 }
 
 // What covers cells, walls and terrain, and stays the same whatever the robot does.

@@ -31,7 +31,7 @@ export interface Seen extends Point {
 
 interface Props {
   domain: MapDomain;
-  centred: Place | undefined; // stays in the window
+  centred: Place[]; // the first one stays in the window, the second one as well if both fit
   beginsWhole: boolean;
   texts: WindowTexts;
   isHeightLimited: boolean; // the style limits the height of the board also if all of it is shown
@@ -54,7 +54,7 @@ export function BoardWindow(props: Props): JSX.Element {
     const box = pan.current;
     if (box) setSeen(seenIn(box));
   };
-  useLayoutEffect(look, [isEnlarged, centred?.[0], centred?.[1]]);
+  useLayoutEffect(look, [isEnlarged, String(centred)]);
   const move = (to: Point): void => {
     if (pan.current) centreOn(pan.current, to, 'auto');
   };
@@ -114,30 +114,39 @@ function centreOn(box: HTMLElement, { x, y }: Point, behavior: ScrollBehavior): 
   });
 }
 
-// Keeps the robot in the middle half of the window: first and after a change of its size at once, then smoothly.
-function useFollowing(pan: { current: HTMLElement | null }, robot: Place | undefined, isEnlarged: boolean): void {
+const kRoom = 6 * kUnit; // beside two places, for what is written there
+
+function aimOf(box: HTMLElement, first: Place, second: Place): Point {
+  const [a, b] = [centre(first), centre(second)];
+  const { width, height } = seenIn(box);
+  const isNear = Math.abs(a.x - b.x) < width - kRoom && Math.abs(a.y - b.y) < height - kRoom / 2;
+  return isNear ? { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 } : a;
+}
+
+// Keeps what it follows in the middle half of the window: first and after a change of its size at once, then smoothly.
+function useFollowing(pan: { current: HTMLElement | null }, places: Place[], isEnlarged: boolean): void {
   const calm = useCalm();
   const wasEnlarged = useRef(false);
-  const place = useRef(robot);
-  place.current = robot;
+  const current = useRef(places);
+  current.current = places;
+  const follow = (behavior: ScrollBehavior, always = false): void => {
+    const [first, second = first] = current.current;
+    if (pan.current && first && second) keepInside(pan.current, aimOf(pan.current, first, second), behavior, always);
+  };
   useLayoutEffect(() => {
     const isFirst = !wasEnlarged.current;
     wasEnlarged.current = isEnlarged;
-    if (pan.current && robot && isEnlarged) keepInside(pan.current, robot, calm || isFirst ? 'auto' : 'smooth', isFirst);
-  }, [robot?.[0], robot?.[1], isEnlarged]);
+    if (isEnlarged) follow(calm || isFirst ? 'auto' : 'smooth', isFirst);
+  }, [String(places), isEnlarged]);
   useLayoutEffect(() => {
-    const box = pan.current;
-    if (!box || !isEnlarged) return;
-    const observer = new ResizeObserver(() => {
-      if (place.current) keepInside(box, place.current, 'auto');
-    });
-    observer.observe(box);
+    if (!pan.current || !isEnlarged) return;
+    const observer = new ResizeObserver(() => follow('auto'));
+    observer.observe(pan.current);
     return () => observer.disconnect();
   }, [isEnlarged]);
 }
 
-function keepInside(box: HTMLElement, robot: Place, behavior: ScrollBehavior, always = false): void {
-  const at = centre(robot);
+function keepInside(box: HTMLElement, at: Point, behavior: ScrollBehavior, always: boolean): void {
   const { x, y, width, height } = seenIn(box);
   const isInside = Math.abs(at.x - x - width / 2) < width / 4 && Math.abs(at.y - y - height / 2) < height / 4;
   if (always || !isInside) centreOn(box, at, behavior);
