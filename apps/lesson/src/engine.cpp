@@ -7,6 +7,7 @@
 //   {"do": "world", "key"}, {"do": "texts"}, {"do": "seal"}         a table of moves, texts, a digest of all events
 //   {"do": "progress"}                                              {"predictions", "components"}
 //   {"do": "teacher"}                                               {"study", "periods": [{"row", "room"}]}
+//   {"do": "play", "inputs", "asked"}                               playground_json() of a study, and its "warnings"
 //
 // "teacher" is what facilitators see after every period, and now. A room of simulated people begins by itself; every
 // "teach" is one of its periods.
@@ -64,6 +65,7 @@ class Engine {
   Json answer(const Json& request) {
     const auto what = request.at("do").get<std::string>();
     if (what == "open") return open(request);
+    if (what == "play") return play(request);
     if (!room_) throw std::logic_error{"nothing is open"};
     if (what == "world") return world(request.at("key").get<std::string>());
     if (what == "texts") return language_json(*study_);
@@ -78,9 +80,11 @@ class Engine {
   }
 
  private:
-  Json open(const Json& request) {
+  // Reads the study and its domain.
+  // @return warnings, as texts.
+  Json read(const Json& inputs) {
     fs::create_directories(kFolder);
-    for (const auto& [name, text] : request.at("inputs").items()) {
+    for (const auto& [name, text] : inputs.items()) {
       fs::create_directories((fs::path{kFolder} / name).parent_path());
       std::ofstream{fs::path{kFolder} / name, std::ios::binary} << text.get<std::string>();
     }
@@ -88,6 +92,18 @@ class Engine {
     if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
     study_ =
         make_live_study(*reading.study, std::make_shared<const Atlas>(*reading.domain), kFolder, reading.domain_text);
+    return texts_of(reading.diagnostics);
+  }
+
+  Json play(const Json& request) {
+    auto warnings = read(request.at("inputs"));
+    auto reply = playground_json(*study_, request.at("asked"));
+    reply["warnings"] = std::move(warnings);
+    return reply;
+  }
+
+  Json open(const Json& request) {
+    const auto warnings = read(request.at("inputs"));
     cache_ = std::make_unique<TeachingCache>(study_->atlas);
     room_.emplace(study_, room_setup(request.at("setup")), *cache_);
     past_ = Json::array();
@@ -108,7 +124,7 @@ class Engine {
     }
     auto reply = state();
     if (!lessons.empty()) reply["restored"] = std::move(restored);
-    reply["warnings"] = texts_of(reading.diagnostics);
+    reply["warnings"] = warnings;
     return reply;
   }
 

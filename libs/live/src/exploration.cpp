@@ -1,6 +1,7 @@
 #include "exploration.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -74,13 +75,7 @@ Exploration explored_in(const Atlas& atlas, MdpIndex world, const Json& start) {
   return explored(atlas, atlas.index({world, *state}));
 }
 
-}  // namespace
-
-bool can_explore(const Domain& domain) {
-  const auto map = domain.drawing();
-  return map && map->width() <= kMostColumns && map->height() <= kMostColumns;
-}
-
+// Whether the map can be changed, too: a domain file with the rows of one.
 bool can_change_map(const LiveStudy& study) {
   const auto& domain = study.atlas->domain();
   const auto map = domain.map();
@@ -89,15 +84,56 @@ bool can_change_map(const LiveStudy& study) {
       .has_value();
 }
 
-std::vector<std::string> placeable_symbols(const Domain& domain) {
+}  // namespace
+
+bool can_explore(const Domain& domain) {
+  const auto map = domain.drawing();
+  return map && map->width() <= kMostColumns && map->height() <= kMostColumns;
+}
+
+std::vector<std::string> placeable_symbols(const LiveStudy& study) {
   std::vector<std::string> symbols;
-  const auto map = domain.map();
-  if (!map) return symbols;
-  for (const auto& entry : map->legend()) {
+  if (!can_change_map(study)) return symbols;
+  for (const auto& entry : study.atlas->domain().map()->legend()) {
     if (entry.start || !entry.item.empty() || entry.content.goal || !entry.content.destination_of.empty()) continue;
     symbols.emplace_back(1, entry.symbol);
   }
   return symbols;
+}
+
+Json known_brackets(const Atlas& atlas, const std::vector<HalfSpace>& more, std::vector<std::size_t> features) {
+  const auto& domain = atlas.domain();
+  auto known = domain.prior();
+  known.insert(known.end(), more.begin(), more.end());
+  const auto reference = reference_feature(domain, atlas.knowledge_components());
+  if (features.empty()) {
+    features.resize(domain.num_features());
+    std::iota(features.begin(), features.end(), std::size_t{0});
+    std::erase(features, reference);
+  }
+  return brackets_json(domain, brackets(domain, known, features, reference));
+}
+
+Json playground_json(const LiveStudy& study, const Json& asked) {
+  const auto& atlas = *study.atlas;
+  std::vector<HalfSpace> all;
+  for (const auto& component : atlas.knowledge_components()) {
+    for (auto& half_space : atlas.constraints().half_spaces(component.conveyed.value_or(component.constraints)))
+      all.push_back(std::move(half_space));
+  }
+  Json page{{"learn", known_brackets(atlas, all)}, {"explore", Json{}}};
+  if (!can_explore(atlas.domain())) return page;
+  auto now = explored(atlas, study.sandbox);
+  view::Explore shown{now.shown, placeable_symbols(study), Json{}, std::nullopt};
+  if (!asked.is_null()) {
+    const auto map = asked.value("map", std::vector<std::string>{});
+    now = map.empty() ? explored_in(atlas, atlas.id(study.sandbox).mdp, asked.at("start"))
+                      : explored(study, {asked.at("start"), std::nullopt, map});
+    shown.at<"last">() = now.shown;
+  }
+  shown.at<"brackets">() = known_brackets(atlas, now.conveyed);
+  page["explore"] = written(shown);
+  return page;
 }
 
 Exploration explored(const Atlas& atlas, StartIndex start) {

@@ -22,11 +22,13 @@ struct Exploration {
 /// Whether people can explore the worlds of a domain: there is a map or a picture, small enough to be changed by hand.
 [[nodiscard]] bool can_explore(const Domain& domain);
 
-/// Whether the map can be changed, too: a domain file with the rows of one.
-[[nodiscard]] bool can_change_map(const LiveStudy& study);
+/// Symbols of things that can be put anywhere on the map: floor, walls, terrain, stations. None if it cannot be changed.
+[[nodiscard]] std::vector<std::string> placeable_symbols(const LiveStudy& study);
 
-/// Symbols of things that can be put anywhere on the map: floor, walls, terrain, stations.
-[[nodiscard]] std::vector<std::string> placeable_symbols(const Domain& domain);
+/// Between which bounds features lie by the prior and whatever else is known: brackets_json().
+/// @param features  all but the one that they are weighed against, unless given.
+[[nodiscard]] Json known_brackets(const Atlas& atlas, const std::vector<HalfSpace>& more,
+                                  std::vector<std::size_t> features = {});
 
 /// Never throws for what people send.
 [[nodiscard]] Exploration explored(const LiveStudy& study, const happening::Explored& asked);

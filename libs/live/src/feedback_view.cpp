@@ -76,14 +76,11 @@ std::vector<std::size_t> spared_by(const Domain& domain, MdpIndex world, StateIn
   return spared;
 }
 
-// What somebody can know of features who has seen all demonstrations, all feedback, and what they explored.
-Json known_brackets(const RoomParts& room, const LiveSeat& seat, std::span<const std::size_t> features) {
-  const auto& atlas = *room.study.atlas;
-  auto known = atlas.domain().prior();
-  for (const auto& more : {taught_so_far(room.state), seat.explored})
-    known.insert(known.end(), more.begin(), more.end());
-  const auto reference = reference_feature(atlas.domain(), atlas.knowledge_components());
-  return brackets_json(atlas.domain(), brackets(atlas.domain(), known, features, reference));
+// What somebody can know who has seen all demonstrations, all feedback, and what they explored.
+std::vector<HalfSpace> known_to(const RoomParts& room, const LiveSeat& seat) {
+  auto known = taught_so_far(room.state);
+  known.insert(known.end(), seat.explored.begin(), seat.explored.end());
+  return known;
 }
 
 }  // namespace
@@ -192,23 +189,18 @@ view::Feedback feedback_view(const RoomParts& room, const LiveSeat& seat) {
   feedback.at<"others_unsure">() = all_right && !learned && others_unsure;
   if (room.study.group().screens.brackets) {
     feedback.at<"brackets">() =
-        known_brackets(room, seat, room.study.atlas->knowledge_components()[past.lesson.component].features);
+        known_brackets(*room.study.atlas, known_to(room, seat),
+                       room.study.atlas->knowledge_components()[past.lesson.component].features);
   }
   return feedback;
 }
 
 view::Explore explore_view(const RoomParts& room, const LiveSeat& seat) {
-  const auto& atlas = *room.study.atlas;
   const auto* lesson = last_lesson(room.state);
   const bool has_test = lesson != nullptr && !lesson->tests.empty();
   const auto first = has_test ? lesson->tests.back().start : room.study.sandbox;
-  const auto reference = reference_feature(atlas.domain(), atlas.knowledge_components());
-  std::vector<std::size_t> features;
-  for (std::size_t k = 0; k < atlas.domain().num_features(); ++k) {
-    if (k != reference) features.push_back(k);
-  }
-  auto put = can_change_map(room.study) ? placeable_symbols(atlas.domain()) : std::vector<std::string>{};
-  return {explored(atlas, first).shown, std::move(put), known_brackets(room, seat, features),
+  const auto& atlas = *room.study.atlas;
+  return {explored(atlas, first).shown, placeable_symbols(room.study), known_brackets(atlas, known_to(room, seat)),
           seat.exploration ? std::optional{*seat.exploration} : std::nullopt};
 }
 

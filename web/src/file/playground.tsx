@@ -1,66 +1,65 @@
-// A domain file that can be changed, and what follows at once: a simulated crew that is taught, or the lesson.
+// A robot that can be changed: sliders for what it likes and dislikes, and a board to paint. Behind tabs are the file
+// that says so, and the lesson.
 import type { JSX } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { App } from '../live/app';
+import { Exploring, type Asking } from '../live/parts/explore';
+import type { ParticipantView } from '../live/protocol';
+import { Brackets, type Bracket } from '../shared/play/brackets';
+import { Button } from '../shared/play/button';
+import { labelOf } from '../shared/play/ledger';
 import { download } from '../shared/download';
+import { capitalised } from '../shared/texts';
 import { useTransport } from '../shared/transport';
 import type { LessonFile } from './document';
-import { EngineError, type Diagnostic, type Engine, type State } from './engine';
+import { EngineError, type Diagnostic, type Engine } from './engine';
 import { LocalServer } from './local_server';
-import { TeacherView, type Teacher } from './teacher';
 
 const kDomain = 'domain.toml';
-const kPause = 500; // ms after the last change
+const kPause = 120; // ms after the last change
+const kTabs = { robot: 'The robot', file: 'Its file', lesson: 'Take the lesson' } as const;
 
-interface Crew {
-  strategy: string;
-  members: string; // a letter of a learner type each
-  replicate: number;
-}
-
-interface Told {
-  errors: Diagnostic[];
+// What the engine says of the robot.
+interface Played {
+  explore: ParticipantView['explore'] | null; // nothing where the map is too large
+  learn: Bracket[]; // between which bounds its weights lie for whoever has learned everything
   warnings: string[];
-  busy: boolean;
 }
 
 // What is wrong with the study is not for who changes the domain, unless nothing else is.
 const isOfStudy = (text: string): boolean => text.startsWith('/study/study.toml');
 
-const diagnosticsOf = (error: unknown): Diagnostic[] => {
-  if (error instanceof EngineError && error.diagnostics.length > 0) {
-    const own = error.diagnostics.filter(({ file }) => !isOfStudy(file ?? ''));
-    return own.length > 0 ? own : error.diagnostics;
-  }
-  return [{ file: null, line: null, column: null, text: error instanceof Error ? error.message : String(error) }];
+const diagnosticsOf = (error: unknown): string[] => {
+  if (!(error instanceof EngineError) || error.diagnostics.length === 0) return [error instanceof Error ? error.message : String(error)];
+  const own = error.diagnostics.filter(({ file }: Diagnostic) => !isOfStudy(file ?? ''));
+  return (own.length > 0 ? own : error.diagnostics).map(({ text }) => text);
 };
 
+const kWeights = /^(\s*weights\s*=\s*\{)([^}]*)\}/m;
+
+export function weightsOf(text: string): [string, number][] {
+  const pairs = kWeights.exec(text)?.[2]?.split(',') ?? [];
+  return pairs.flatMap((pair): [string, number][] => {
+    const [name = '', value = ''] = pair.split('=').map((part) => part.trim());
+    return name === '' || !Number.isFinite(Number(value)) ? [] : [[name, Number(value)]];
+  });
+}
+
+const withWeight = (text: string, name: string, value: number): string =>
+  text.replace(kWeights, (_, head: string, pairs: string) => `${head}${pairs.replace(new RegExp(`(^|[,\\s])(${name}\\s*=\\s*)[-+.\\d]+`), `$1$2${value}`)}}`);
+
 export function Playground({ engine, file }: { engine: Engine; file: LessonFile }): JSX.Element {
-  const [text, setText] = useState(file.inputs[kDomain] ?? '');
-  const [mode, setMode] = useState<'crew' | 'lesson'>('crew');
-  const [crew, setCrew] = useState<Crew>({ strategy: String(file.setup['strategy']), members: '', replicate: 1 });
-  const [teacher, setTeacher] = useState<Teacher | null>(null);
-  const [period, setPeriod] = useState(Infinity);
+  const original = file.inputs[kDomain] ?? '';
+  const [text, setText] = useState(original);
+  const [tab, setTab] = useState<keyof typeof kTabs>('robot');
+  const [played, setPlayed] = useState<Played | null>(null);
+  const [asked, setAsked] = useState<Asking | null>(null);
+  const [errors, setErrors] = useState<string[]>([]);
+  const [isBusy, setBusy] = useState(true);
   const [lesson, setLesson] = useState(0); // counts lessons that were begun
-  const [told, setTold] = useState<Told>({ errors: [], warnings: [], busy: true });
   const run = useRef(0);
-
   const inputs = { ...file.inputs, [kDomain]: text };
-  const open = (setup: object): Promise<State> => engine.ask({ do: 'open', inputs, setup: { ...file.setup, id: 'playground', ...setup } });
 
-  // Taught before one's eyes: every period is shown when it is over.
-  const teach = async (isCurrent: () => boolean): Promise<void> => {
-    const members = crew.members || String(file.setup['composition']).repeat(3);
-    const simulated = [...members].map(() => true);
-    let state = await open({ composition: members, strategy: crew.strategy, replicate: crew.replicate, simulated });
-    setTold({ errors: [], warnings: (state.warnings ?? []).filter((one) => !isOfStudy(one)), busy: true });
-    setPeriod(Infinity);
-    while (isCurrent() && state.teaching) {
-      state = await engine.ask<State>({ do: 'teach' });
-      const now = await engine.ask<Teacher>({ do: 'teacher' });
-      if (isCurrent()) setTeacher(now);
-    }
-  };
   const take = async (): Promise<void> => {
     const nothing = (): void => undefined;
     const server = new LocalServer(engine, { ...file, inputs }, null, null, () => [], { kept: nothing, news: nothing, consent: nothing, elsewhere: nothing });
@@ -68,157 +67,111 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
     useTransport(server);
     setLesson((count) => count + 1);
   };
-  const begin = async (): Promise<void> => {
-    const own = (run.current += 1);
-    const isCurrent = (): boolean => run.current === own;
+  const begin = async (own: number): Promise<void> => {
+    let found: string[] = [];
     try {
-      await (mode === 'crew' ? teach(isCurrent) : take());
-      if (isCurrent()) setTold((known) => ({ ...known, errors: [], busy: false }));
+      if (tab === 'lesson') await take();
+      else {
+        const reply = await engine.ask<Played>({ do: 'play', inputs, asked });
+        if (own === run.current) setPlayed(reply);
+      }
     } catch (error) {
-      if (isCurrent()) setTold({ errors: diagnosticsOf(error), warnings: [], busy: false });
+      found = diagnosticsOf(error);
     }
+    if (own !== run.current) return;
+    setErrors(found);
+    setBusy(false);
   };
   useEffect(() => {
-    setTold((known) => ({ ...known, busy: true }));
-    const timer = setTimeout(() => void begin(), teacher || lesson > 0 ? kPause : 0);
+    setBusy(true);
+    const own = (run.current += 1);
+    const timer = setTimeout(() => void begin(own), played ? kPause : 0);
     return () => clearTimeout(timer);
-  }, [text, mode, crew]);
+  }, [text, asked, tab === 'lesson']);
 
-  const isBad = told.errors.length > 0;
   return (
-    <main id="main" tabIndex={-1} class={`playground ${mode}`} lang="en" dir="ltr">
+    <main id="main" tabIndex={-1} class="playground" lang="en" dir="ltr">
       <h1>{file.title}: playground</h1>
-      <p>Change the robot, and see at once what there is to learn about it and how a crew is taught. Nothing leaves this page, and nothing is kept: save the domain to go on with it.</p>
-      <div class="playground-parts">
-        <section aria-labelledby="domain-title">
-          <h2 id="domain-title">The domain</h2>
-          <Editor text={text} onText={setText} told={told} />
-          <p>
-            <button type="button" onClick={() => download(new Blob([text], { type: 'text/plain' }), kDomain)}>
-              Save the domain
-            </button>{' '}
-            <button type="button" onClick={() => setText(file.inputs[kDomain] ?? '')} disabled={text === file.inputs[kDomain]}>
-              As it was
-            </button>
-          </p>
-        </section>
-        <section aria-labelledby="seen-title" aria-busy={told.busy}>
-          <h2 id="seen-title">{mode === 'crew' ? 'A simulated crew' : 'The lesson'}</h2>
-          <p role="group" aria-label="What to see">
-            <button type="button" aria-pressed={mode === 'crew'} onClick={() => setMode('crew')}>
-              Teach a simulated crew
-            </button>{' '}
-            <button type="button" aria-pressed={mode === 'lesson'} onClick={() => setMode('lesson')}>
-              Take the lesson yourself
-            </button>
-          </p>
-          {mode === 'crew' && teacher && <Choices teacher={teacher} crew={crew} onCrew={setCrew} fallback={String(file.setup['composition']).repeat(3)} />}
-          <p role="status">{isBad ? 'The domain has errors; what is shown is from before.' : told.busy ? (mode === 'crew' ? 'The crew is being taught...' : 'The lesson is being prepared...') : ''}</p>
-          {mode === 'crew' && teacher && <TeacherView teacher={teacher} period={period} onPeriod={setPeriod} />}
-          {mode === 'lesson' && lesson > 0 && <App key={lesson} />}
-        </section>
-      </div>
+      <p role="group" aria-label="What to see">
+        {Object.entries(kTabs).map(([name, title]) => (
+          <>
+            <Button pressed={tab === name} onClick={() => setTab(name as keyof typeof kTabs)}>
+              {title}
+            </Button>{' '}
+          </>
+        ))}
+      </p>
+      <section aria-label={kTabs[tab]} aria-busy={isBusy}>
+        {tab === 'robot' && played && <Robot text={text} original={original} onText={setText} played={played} onAsk={setAsked} />}
+        {tab === 'file' && <Editor text={text} onText={setText} isBad={errors.length > 0} />}
+        {tab === 'lesson' && lesson > 0 && <App key={lesson} />}
+        <div id="said" role="status">
+          {errors.length > 0 && <p>The robot cannot be like this; what is shown is from before.</p>}
+          {[...errors, ...(played?.warnings ?? []).filter((one) => !isOfStudy(one))].map((said) => (
+            <pre class="said" tabIndex={0}>
+              {said.replaceAll('/study/', '')}
+            </pre>
+          ))}
+        </div>
+      </section>
+      <p>
+        Nothing leaves this page, and nothing is kept: save the robot to go on with it.{' '}
+        <Button onClick={() => download(new Blob([text], { type: 'text/plain' }), kDomain)}>Save</Button>{' '}
+        <Button off={text === original} onClick={() => setText(original)}>
+          As it was
+        </Button>
+      </p>
     </main>
   );
 }
 
-// The text with its line numbers. Errors stand below, and each leads to its place.
-function Editor({ text, onText, told }: { text: string; onText: (text: string) => void; told: Told }): JSX.Element {
-  const area = useRef<HTMLTextAreaElement>(null);
-  const gutter = useRef<HTMLPreElement>(null);
-  const lines = text.split('\n');
-  const here = told.errors.filter(({ file, line }) => line !== null && (file ?? '').endsWith(kDomain));
-  const marked = new Set(here.map(({ line }) => line));
-  const goTo = (line: number, column: number): void => {
-    if (!area.current) return;
-    const before = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
-    area.current.focus();
-    area.current.setSelectionRange(before + column - 1, before + (lines[line - 1]?.length ?? 0));
-    area.current.scrollTop = (area.current.scrollHeight / lines.length) * Math.max(0, line - 6);
-  };
+interface RobotProps {
+  text: string;
+  original: string;
+  onText: (text: string) => void;
+  played: Played;
+  onAsk: (asked: Asking | null) => void;
+}
+
+function Robot({ text, original, onText, played: { explore, learn }, onAsk }: RobotProps): JSX.Element {
+  const board = explore?.first.board;
+  const counted = board?.domain.counted ?? [];
+  const most = Math.ceil(2 * Math.max(1, ...weightsOf(original).map(([, weight]) => Math.abs(weight))));
   return (
-    <>
-      <div class="editor">
-        <pre ref={gutter} aria-hidden="true">
-          {lines.map((_, i) => (
-            <span class={marked.has(i + 1) ? 'bad' : undefined}>{`${marked.has(i + 1) ? '! ' : ''}${i + 1}\n`}</span>
-          ))}
-        </pre>
-        <textarea
-          ref={area}
-          value={text}
-          spellcheck={false}
-          wrap="off"
-          aria-label="Text of the domain"
-          aria-invalid={told.errors.length > 0}
-          aria-describedby="domain-errors"
-          onInput={(event) => onText(event.currentTarget.value)}
-          onScroll={(event) => gutter.current && (gutter.current.scrollTop = event.currentTarget.scrollTop)}
-        />
+    <div class="playground-parts">
+      <div>
+        <h2>What it likes and dislikes</h2>
+        {weightsOf(text).map(([name, weight]) => {
+          const one = counted.find((feature) => feature.name === name);
+          return (
+            <label class="weight">
+              <span>{one ? capitalised(labelOf(one)) : name}</span>
+              <input type="range" min={-most} max={most} step={0.25} value={weight} onInput={(event) => onText(withWeight(text, name, event.currentTarget.valueAsNumber))} />
+              <output>{weight}</output>
+            </label>
+          );
+        })}
+        <Brackets title="What there is to learn" brackets={learn} counted={counted} />
       </div>
-      <div id="domain-errors" role="status">
-        {told.errors.map(({ text: said, file, line, column }) => (
-          <>
-            <pre class="said bad" tabIndex={0}>{said.replaceAll('/study/', '')}</pre>
-            {line !== null && (file ?? '').endsWith(kDomain) && (
-              <button type="button" onClick={() => goTo(line, column ?? 1)}>
-                Go to line {line}
-              </button>
-            )}
-          </>
-        ))}
-        {told.warnings.map((said) => (
-          <pre class="said" tabIndex={0}>{said.replaceAll('/study/', '')}</pre>
-        ))}
+      <div>
+        <h2>What it does</h2>
+        {explore ? <Exploring key={board?.map?.join()} explore={explore} onAsk={onAsk} /> : <p>The map is too large to be changed here.</p>}
       </div>
-    </>
+    </div>
   );
 }
 
-interface ChoicesProps {
-  teacher: Teacher;
-  crew: Crew;
-  onCrew: (crew: Crew) => void;
-  fallback: string;
-}
-
-function Choices({ teacher, crew, onCrew, fallback }: ChoicesProps): JSX.Element {
-  const { strategies, types } = teacher.study;
-  const members = crew.members || fallback;
-  const first = types[0]?.letter ?? 'N';
-  const resized = (size: number): string => members.slice(0, size).padEnd(size, first);
+function Editor({ text, onText, isBad }: { text: string; onText: (text: string) => void; isBad: boolean }): JSX.Element {
   return (
-    <div class="choices">
-      <label>
-        Strategy{' '}
-        <select value={crew.strategy} onChange={(event) => onCrew({ ...crew, strategy: event.currentTarget.value })}>
-          {strategies.map(({ name }) => (
-            <option value={name}>{name}</option>
-          ))}
-        </select>
-      </label>
-      <label>
-        People{' '}
-        <select value={String(members.length)} onChange={(event) => onCrew({ ...crew, members: resized(Number(event.currentTarget.value)) })}>
-          {[1, 2, 3, 4, 5, 6].map((size) => (
-            <option value={String(size)}>{size}</option>
-          ))}
-        </select>
-      </label>
-      {types.length > 1 &&
-        [...members].map((letter, i) => (
-          <label>
-            <span class="visually-hidden">Person {i + 1}</span>
-            <select value={letter} onChange={(event) => onCrew({ ...crew, members: members.slice(0, i) + event.currentTarget.value + members.slice(i + 1) })}>
-              {types.map((type) => (
-                <option value={type.letter}>{type.label || type.letter}</option>
-              ))}
-            </select>
-          </label>
-        ))}
-      <button type="button" onClick={() => onCrew({ ...crew, replicate: crew.replicate + 1 })}>
-        Other people
-      </button>
-    </div>
+    <textarea
+      class="editor"
+      value={text}
+      spellcheck={false}
+      wrap="off"
+      aria-label="Text of the domain"
+      aria-invalid={isBad}
+      aria-describedby="said"
+      onInput={(event) => onText(event.currentTarget.value)}
+    />
   );
 }

@@ -11,11 +11,18 @@ import { Brackets } from '../../shared/play/brackets';
 import { countsOf, Ledger } from '../../shared/play/ledger';
 import { actionLabel, capitalised, isEnglish, listed, named, sentence, t } from '../../shared/texts';
 import { cellTexts } from '../../shared/play/words';
-import type { Connection } from '../connection';
 import type { Explored, ParticipantView } from '../protocol';
 import { Button } from './ui';
 
 type Shown = NonNullable<ParticipantView['explore']>;
+
+// Where the robot would go from there, in a world or on a map.
+export type Asking = { start: Frame } & ({ world: number } | { map: string[] });
+
+interface ExploringProps {
+  explore: Shown;
+  onAsk: (asked: Asking | null) => void; // nothing: all is as it was
+}
 
 // What is asked: a world, or the map in its place where that was changed.
 interface Asked {
@@ -85,17 +92,19 @@ function Tool({ legend, symbol, isOn, onChoose }: { legend: Legend; symbol: stri
   );
 }
 
+export const exploreTitle = ({ put }: Shown): string => t(put.length > 0 ? 'explore.title' : 'explore.title_robot');
+
 // The task, and the world.
-export function Exploring({ explore, connection }: { explore: Shown; connection: Connection }): JSX.Element {
+export function Exploring({ explore, onAsk }: ExploringProps): JSX.Element {
   return (
     <>
       <p class="lead">{t(explore.put.length > 0 ? 'explore.lead' : 'explore.lead_robot')}</p>
-      <Explore explore={explore} connection={connection} />
+      <Explore explore={explore} onAsk={onAsk} />
     </>
   );
 }
 
-function Explore({ explore, connection }: { explore: Shown; connection: Connection }): JSX.Element {
+function Explore({ explore, onAsk }: ExploringProps): JSX.Element {
   const { first, last, put } = explore;
   const legend = useLegend(first.board?.domain ?? { id: '' });
   const beginning: Asked | null = first.board ? { board: first.board, isChanged: false } : null;
@@ -109,14 +118,14 @@ function Explore({ explore, connection }: { explore: Shown; connection: Connecti
     before.current = asked && last ? last : first;
     setAsked(next);
     const { map, start, world } = next.board;
-    connection.send('explore', next.isChanged && map ? { map, start } : { world, start });
+    onAsk(next.isChanged && map ? { map, start } : { world, start });
   };
   const result = asked ? (last ?? first) : first;
   return (
     <div class="board-screen explore">
       <div class="board-column">
         <Grid asked={current} result={result} legend={legend} put={put} tool={tool} onAsk={ask} />
-        <Things board={current.board} legend={legend} lines={result.other ? ['own', 'other'] : ['own']} walked={result.path?.frames ?? []} decisive={result.other !== null && !result.impossible} otherLine={t('explore.other_line')} />
+        <Things board={current.board} legend={legend} lines={result.other ? ['own', 'plain'] : ['own']} walked={result.path?.frames ?? []} decisive={result.other !== null && !result.impossible} otherLine={t('explore.other_line')} />
       </div>
       <div class="side">
         {put.length > 0 && (
@@ -129,7 +138,13 @@ function Explore({ explore, connection }: { explore: Shown; connection: Connecti
         )}
         <p class="muted hint">{t('explore.keys')}</p>
         <Answer result={result} before={before.current} changes={asked ? changesOf(beginning.board, asked.board) : null} />
-        <Button off={asked === null} onClick={() => setAsked(null)}>
+        <Button
+          off={asked === null}
+          onClick={() => {
+            setAsked(null);
+            onAsk(null);
+          }}
+        >
           {t('explore.reset')}
         </Button>
         <Brackets brackets={explore.brackets} counted={current.board.domain.counted} />
@@ -144,7 +159,7 @@ function Answer({ result, before, changes }: { result: Explored; before: Explore
   if (result.impossible || !result.board || !result.path) return <p class="reasons" role="status">{t('explore.impossible')}</p>;
   const key = pathText(result) === pathText(before) ? 'explore.same' : 'explore.changed';
   const columns = [{ name: t('ledger.robot'), kind: 'own' as const, counts: countsOf(played(result.path)) }];
-  const other = result.other ? [{ name: t('explore.other'), kind: 'other' as const, counts: countsOf(played(result.other)) }] : [];
+  const other = result.other ? [{ name: t('explore.other'), kind: 'plain' as const, counts: countsOf(played(result.other)) }] : [];
   return (
     <>
       <div class="reasons" role="status">
@@ -251,7 +266,7 @@ function Grid({ asked, result, legend, put, tool, onAsk }: GridProps): JSX.Eleme
         isSmall
         isBare
         {...(isDrawn ? { closedAt: closedAt(path) } : {})}
-        {...(isDrawn && other ? { other: played(other), decisive: decisiveAt(path, result.differs_at ?? 0) } : {})}
+        {...(isDrawn && other ? { other: played(other), otherKind: 'plain', decisive: decisiveAt(path, result.differs_at ?? 0) } : {})}
       />
       {box && (
         <div

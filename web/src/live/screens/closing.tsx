@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { useLegend } from '../../shared/play/board_pane';
 import { SmallBoard } from '../../shared/play/small_board';
 import { remembered, type Memory } from '../memory';
-import { Exploring } from '../parts/explore';
+import { exploreTitle, Exploring } from '../parts/explore';
 import { Button, CompletionCode, GoOn, Heading } from '../parts/ui';
 import type { Judged, ParticipantView, Update } from '../protocol';
 import type { ScreenProps } from '../screen';
@@ -32,8 +32,8 @@ export function Debrief({ debrief, isSaved, view, connection }: DebriefProps): J
       <FirstAndLast {...memory} />
       {view.explore && (
         <section class="explore-part no-print" aria-labelledby="explore-title">
-          <h2 id="explore-title">{t('explore.title')}</h2>
-          <Exploring explore={view.explore} connection={connection} />
+          <h2 id="explore-title">{exploreTitle(view.explore)}</h2>
+          <Exploring explore={view.explore} onAsk={(asked) => asked && connection.send('explore', asked)} />
         </section>
       )}
       {summary.length > 0 && (

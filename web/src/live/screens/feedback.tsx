@@ -8,7 +8,7 @@ import { Brackets, type Bracket } from '../../shared/play/brackets';
 import { Compare } from '../../shared/play/compare';
 import { Fan, stateAt } from '../../shared/play/fan';
 import { sentence, t, type TextKey } from '../../shared/texts';
-import { Exploring } from '../parts/explore';
+import { exploreTitle, Exploring } from '../parts/explore';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { remember } from '../memory';
 import type { Frame, Judged } from '../protocol';
@@ -61,13 +61,13 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
             {t('feedback.title.none')}
           </Button>
           <Button pressed={isExploring} onClick={() => setExploring(true)}>
-            {t('explore.title')}
+            {exploreTitle(view.explore)}
           </Button>
         </div>
       )}
       {isLast && view.explore && isExploring ? (
-        <section class="explore-part" aria-label={t('explore.title')}>
-          <Exploring explore={view.explore} connection={connection} />
+        <section class="explore-part" aria-label={exploreTitle(view.explore)}>
+          <Exploring explore={view.explore} onAsk={(asked) => asked && connection.send('explore', asked)} />
           {next}
         </section>
       ) : (

@@ -18,11 +18,11 @@ export interface Bracket {
 const valueOf = (ratio: Ratio | null): number | null => (ratio ? ratio[0] / ratio[1] : null);
 
 // `counted` names the unit, and features where the sentence, which is English, cannot be said.
-export function Brackets({ brackets, counted = [] }: { brackets: Bracket[]; counted: Counted[] | undefined }): JSX.Element | null {
+export function Brackets({ brackets, counted = [], title = t('brackets.title') }: { brackets: Bracket[]; counted: Counted[] | undefined; title?: string }): JSX.Element | null {
   if (brackets.length === 0) return null;
   return (
     <div class="brackets">
-      <p class="brackets-title">{t('brackets.title')}</p>
+      <p class="brackets-title">{title}</p>
       {brackets.map((bracket) => (
         <Scale bracket={bracket} counted={counted} />
       ))}

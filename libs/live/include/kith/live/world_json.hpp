@@ -24,6 +24,11 @@ inline constexpr std::size_t kMaxLiveStates = 20'000;
 
 /// The table of moves of a world: move_table_json() with "key" and "max_actions", max_answer_actions().
 [[nodiscard]] Json world_json(const LiveStudy& study, MdpIndex world);
+/// For a page on which the robot can be changed: {"explore": what people see who explore, or null where the map is too
+/// large, "learn": between which bounds the weights lie for whoever has learned everything: brackets_json()}.
+/// @param asked  {"start": a frame, "map": rows, unless it is that of the domain}, or null.
+[[nodiscard]] Json playground_json(const LiveStudy& study, const Json& asked);
+
 /// The number of a state in that table; states that nothing leads to have none.
 [[nodiscard]] std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, StateIndex state);
 
