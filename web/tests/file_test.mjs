@@ -9,7 +9,7 @@ import { dirname, join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
-import { launch, requireFrom } from './browser.mjs';
+import { launch, reads, requireFrom } from './browser.mjs';
 import { reach, until } from './live/kith_tests.mjs';
 import { Reader } from './live/reader.mjs';
 
@@ -253,7 +253,7 @@ describe('a lesson in a file', () => {
     });
   });
 
-  it('has a playground, where errors have their place and a crew is taught', async () => {
+  it('has a playground, where path, facts and what there is to learn follow weights and board', async () => {
     kith('lesson', 'item-delivery', '--playground', '-q', '-o', join(folder, 'playground.html'));
     const context = await browser.newContext({ viewport: { width: 1500, height: 950 }, offline: true, reducedMotion: 'reduce' });
     const page = await context.newPage();
@@ -262,33 +262,27 @@ describe('a lesson in a file', () => {
     page.on('pageerror', (error) => trouble.push(error.message));
     await page.goto(pathToFileURL(join(folder, 'playground.html')).href);
     page.setDefaultTimeout(240_000);
-    const settled = async () => {
-      await page.locator('section[aria-busy="true"]').waitFor();
-      await page.locator('section[aria-busy="false"]').waitFor();
-    };
-    const said = () => page.locator('.teacher-steps span').textContent();
-    await settled();
-    assert.match(await said(), /^at the end, after period \d+$/);
-    const area = page.getByLabel('Text of the domain');
-    const text = await area.inputValue();
-    await area.fill(text.replace('discount', 'discuont'));
-    await page.locator('.said.bad').first().waitFor();
-    assert.match(await page.locator('.said.bad').first().textContent(), /^domain.toml:11:1: error\[E0107\]: unknown key 'discuont'/);
-    assert.equal(await page.locator('.editor .bad').textContent(), '! 11\n');
-    await page.getByRole('button', { name: 'Go to line 11' }).click();
-    assert.match(await area.evaluate((own) => own.value.slice(own.selectionStart, own.selectionEnd)), /^discuont/);
-
-    await area.fill(text.replace('rubble = -3.0', 'rubble = -3.5'));
-    await settled();
-    await page.getByLabel('Strategy').selectOption('joint');
-    await settled();
-    assert.match(await said(), /^at the end, after period \d+$/);
-    assert.deepEqual(await page.locator('.said.bad').allTextContents(), []);
-    if (values.screenshots) await page.screenshot({ path: join(values.screenshots, 'playground.png'), fullPage: true });
+    const tab = (name) => page.getByRole('button', { name, exact: true }).click();
+    const learn = page.locator('.brackets').first();
+    await reads(learn, /Crossing rubble costs 2 to 4 steps/);
+    await page.getByRole('slider', { name: 'Crossing rubble' }).fill('-5.5');
+    await reads(learn, /Crossing rubble costs more than 4 steps/);
+    await page.getByLabel('Wall').check();
+    const free = page.locator('.explore-cells button', { hasText: /^Free floor/i }).first();
+    await free.click();
+    await reads(page.locator('.explore .reasons'), /1 place is changed/);
     await page.evaluate(axe);
     const { violations } = await page.evaluate(() => window.axe.run());
     assert.deepEqual(violations.filter(({ impact }) => ['serious', 'critical'].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes[0].html}`), []);
-    await page.getByRole('button', { name: 'Take the lesson yourself' }).click();
+    if (values.screenshots) await page.screenshot({ path: join(values.screenshots, 'playground.png'), fullPage: true });
+    await tab('Its file');
+    const area = page.getByLabel('Text of the domain');
+    const text = await area.inputValue();
+    assert.match(text, /weights = \{ rubble = -5.5, recharge = 3.5, step = -1.0 \}/);
+    await area.fill(text.replace('discount', 'discuont'));
+    await reads(page.locator('.said').first(), /^domain.toml:11:1: error\[E0107\]: unknown key 'discuont'/);
+    await tab('As it was');
+    await tab('Take the lesson');
     await page.waitForSelector('main.stage-consent');
     assert.deepEqual(trouble, []);
     await context.close();

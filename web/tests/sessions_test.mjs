@@ -40,7 +40,7 @@ async function startEngine() {
 
 function documentOf(domain) {
   const page = join(folder, 'lesson.html');
-  execFileSync(values.kith, ['lesson', domain, '--playground', '-q', '-o', page]); // it has several strategies
+  execFileSync(values.kith, ['lesson', domain, '--set', `design.strategies=${JSON.stringify(kStrategies)}`, '--set', 'design.compositions=["NNN"]', '-q', '-o', page]);
   return JSON.parse(/id="kith-document">(.*?)<\/script>/s.exec(readFileSync(page, 'utf8'))[1]);
 }
 

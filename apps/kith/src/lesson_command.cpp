@@ -49,21 +49,13 @@ std::string quoted_toml(const std::string& text) {
   return quoted + "\"";
 }
 
-// What a crew of simulated people needs besides the study of a lesson.
-const std::vector<std::string> kCrew{
-    R"(design.strategies=["plan", "common", "joint", "individual-low"])", R"(design.compositions=["NNP"])",
-    R"(learner.P={ label = "somebody with experience", ability = { mean = 0.809, sd = 0.025 }, )"
-    R"(confirm_gain = { half_normal = 0.022 }, correct_gain = { half_normal = 0.052 } })"};
-
 StudyReading reading_of(LessonOptions options) {
   if (options.has_exam) options.set.emplace_back("group.exam=true");
   if (is_study(options.what)) return study_of(options.what, options.set);
   std::string text{detail::kLessonStudy};
   const std::string place = "\"DOMAIN\"";
   text.replace(text.find(place), place.size(), quoted_toml(options.what));
-  auto set = options.is_playground ? kCrew : std::vector<std::string>{};
-  set.insert(set.end(), options.set.begin(), options.set.end());
-  auto reading = parse_study(text, "the study of a lesson", {.overrides = set, .override_name = "--set"});
+  auto reading = parse_study(text, "the study of a lesson", {.overrides = options.set, .override_name = "--set"});
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
 }
@@ -128,7 +120,7 @@ void declare(OptionList& list, LessonOptions& options) {
   list.integer("--seed", options.seed, {}, "Seed of all random streams of a lesson that does not adapt");
   list.json();
   list.flag("--playground", options.is_playground,
-            "The domain in an editor, and a simulated crew that is taught it, instead of the lesson alone");
+            "The robot with sliders and a board to paint, and its file, instead of the lesson alone");
   list.flag("--exam", options.has_exam, "An exam at the end, like group.exam of a study; the page is then adaptive");
   list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if that page is from this origin");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
