@@ -56,7 +56,7 @@ function layoutOf(count: number, width: number, height: number, below: number): 
   return best;
 }
 
-const kKinds: Record<Ball['kind'], string> = { own: color('board-other'), common: color('text'), joint: color('muted'), other: color('muted') };
+const kKinds: Record<Ball['kind'], string> = { own: color('person'), common: color('text'), joint: color('muted'), other: color('muted') };
 
 const kStar = Array.from({ length: 10 }, (_, i) => {
   const [angle, r] = [(i * Math.PI) / 5 - Math.PI / 2, i % 2 === 0 ? 1 : 0.42];
@@ -122,13 +122,13 @@ export function GlobesDrawing({ space, balls, turn, width, height = Infinity, ha
               <path class="dots behind" d={dotsPath(points, globe, false)} stroke={kKinds[kind]} stroke-width={0.045 * radius} stroke-opacity={0.12} />
               {shapes.map(({ line, region }, k) =>
                 region ? (
-                  <path class="bec-region" d={globe.path(region)} fill={color('board-own')} fill-opacity={0.28} />
+                  <path class="bec-region" d={globe.path(region)} fill={color('robot')} fill-opacity={0.28} />
                 ) : (
                   <path d={globe.path(line)} stroke={color('muted')} stroke-width={1.4} stroke-dasharray={kDashes[k % kDashes.length]} />
                 ),
               )}
               <path class="dots" d={dotsPath(points, globe, true)} stroke={kKinds[kind]} stroke-width={0.045 * radius} stroke-opacity={0.45} />
-              {shapes[0] && <path d={globe.path(shapes[0].line)} stroke={color('board-own')} stroke-width={2} />}
+              {shapes[0] && <path d={globe.path(shapes[0].line)} stroke={color('robot')} stroke-width={2} />}
               {at && at.z >= 0 && <circle class="typical" cx={at.x} cy={at.y} r={6} stroke={color('text')} stroke-width={1.6} />}
             </g>
             {size >= kLabelled && <Axes features={space.features} place={globe.place} radius={radius} />}
@@ -159,7 +159,7 @@ const keyNames = ({ regions }: Space): string[] => [...regions.map(({ label }) =
 function Sign({ i, count }: { i: number; count: number }): JSX.Element {
   if (i === count) return <Star x={7} y={0} size={7} />;
   if (i > 0) return <path d="M0 0h14" stroke={color('muted')} stroke-width={1.6} stroke-dasharray={kDashes[i % kDashes.length]} />;
-  return <rect x={1} y={-6} width={12} height={12} rx={3} fill={color('board-own')} fill-opacity={0.28} stroke={color('board-own')} stroke-width={1.6} />;
+  return <rect x={1} y={-6} width={12} height={12} rx={3} fill={color('robot')} fill-opacity={0.28} stroke={color('robot')} stroke-width={1.6} />;
 }
 
 // Names beside each other, in as many lines as they need.

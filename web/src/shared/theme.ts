@@ -10,6 +10,8 @@ function boardScheme(which: 0 | 1): Scheme {
   const of = (pair: string[]): string => pair[which] ?? '';
   return Object.fromEntries([
     ...Object.entries(colors).map(([name, pair]) => [`board-${name}`, of(pair)]),
+    ['robot', of(colors.own)], // beside boards: what these change does not concern them
+    ['person', of(colors.other)],
     ...tints.flatMap(({ name, ground, mark }) => [
       [`tint-${name}`, of(ground)],
       [`mark-${name}`, of(mark)],
