@@ -354,7 +354,7 @@ describe('a lesson', () => {
     await withLesson('mapless', { width: 1280, dark: false }, async (page) => {
       const example = await open(page);
       assert.equal(await page.locator('.board').count(), 0);
-      await reads(example, /This world: weekday\..*dock/s);
+      await reads(example, /: weekday.*dock/s);
       assert.equal(await page.locator('.step-list').count(), 0, 'listed before the reader has decided');
       await example.getByRole('button', { name: 'Watch without a guess' }).click();
       await reads(example.locator('.step-list .differs').first(), /dock.*wait.*different from here/);
@@ -428,7 +428,7 @@ describe('a lesson', () => {
   it('draws walls and what states place, and says where the robot slips', async () => {
     await withLesson('drawn', { width: 390, dark: true }, async (page) => {
       const shown = await open(page);
-      await reads(shown, /This world: wet ice\./);
+      await reads(shown, /: wet ice/);
       assert.equal(await shown.locator('.board .destination').count(), 1);
       assert.equal(await shown.locator('.board .fence').getAttribute('d'), 'M80 0v40');
       await shown.getByRole('button', { name: 'Watch without a guess' }).click();

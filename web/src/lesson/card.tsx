@@ -2,7 +2,6 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Board, Path, PathKind } from '../shared/board/types';
-import { WorldName } from '../shared/play/board_pane';
 import { Brackets } from '../shared/play/brackets';
 import { Button } from '../shared/play/button';
 import { Compare } from '../shared/play/compare';
@@ -30,20 +29,19 @@ interface Props extends Context {
 export function CardView({ card, place, guess, isChoice, onGuess, next, ...context }: Props): JSX.Element {
   const isPrinting = usePrinting();
   const { kind, shown } = card;
-  const board = playBoard(context.domain, shown);
   const seen = guess ?? (isPrinting && isExample(shown) ? { mine: null, verdict: null } : null);
   return (
     <article class={`card ${kind === 'Example' ? 'demonstration' : 'test'}`}>
       <p class="kicker">
         {kind}, board {place}
+        {shown.world_name && `: ${shown.world_name}`}
       </p>
       {seen ? (
         <Seen {...context} shown={shown} guess={seen} isStill={isPrinting} next={next} />
       ) : (
         <>
-          <Title isQuiet={isPrinting}>{isChoice ? 'Which of these two paths will it take?' : askingText(context, shown)}</Title>
-          {shown.runs && !isPrinting && context.worlds.asked(shown) === 'path' && <p>{t('predict.chance')}</p>}
-          <WorldName board={board} />
+          <Title isQuiet={isPrinting}>{isChoice ? `Which of these two ${shown.runs ? 'moves will it try' : 'paths will it take'}?` : askingText(context, shown)}</Title>
+          {shown.runs && !isPrinting && !isChoice && context.worlds.asked(shown) === 'path' && <p>{t('predict.chance')}</p>}
           {isPrinting ? (
             <Whole {...context} board={{ ...shown, frames: shown.frames.slice(0, 1), runs: null }} />
           ) : (
@@ -142,7 +140,6 @@ function Seen({ shown, guess, isStill, next, ...context }: Context & Pick<Props,
   return (
     <>
       {heading}
-      <WorldName board={board} />
       {shown.runs ? (
         <RunsView key={beat} board={board} legend={legend} shown={shown.runs} isStill={isStill} isOpen reason={reason} below={<Outcomes {...context} shown={shown} pair={pair} />}>
           {goOn}

@@ -70,20 +70,22 @@ export class Worlds {
     return table.end[state] ?? false;
   }
 
-  // The robot's path beside one that somebody might take for it, where the two can be told apart.
+  // The robot's path beside one that somebody might take for it, where the two can be told apart; the first moves of the
+  // two where chance has a part.
   choice(shown: Driven & { runs: unknown; alternative?: Path | null }): [Path, Path] | null {
     const world = this.world(shown.world);
-    if (!world || shown.runs || shown.repeats_from !== undefined || this.asked(shown) !== 'path') return null;
-    const shortest = world.shortest(shown.state, (state) => world.isEnd(state)) ?? [];
-    const isWrong = shortest.length > 0 && !this.judge(shown, shortest, null).isRight;
-    const other = shown.alternative ?? (isWrong ? { frames: world.frames(world.walk(shown.state, shortest), shortest) } : null);
-    if (!other || other.repeats_from !== undefined || this.judgeFrames(shown, other).isRight) return null;
-    return shown.state % 2 === 0 ? [shown, other] : [other, shown];
+    if (!world || shown.repeats_from !== undefined || this.asked(shown) === 'nothing') return null;
+    const along = (actions: number[]): Path => ({ frames: world.frames(world.walk(shown.state, actions), actions) });
+    const shortest = world.shortest(shown.state, (state) => world.isEnd(state));
+    const both = [shown, shown.alternative ?? (shortest && along(shortest))].map((path) => path && (shown.runs ? along([world.actionOf(path.frames[0])]) : path));
+    const [own, other] = both;
+    if (!own || !other || other.repeats_from !== undefined || (this.judgeFrames(shown, other)?.isRight ?? true)) return null;
+    return shown.state % 2 === 0 ? [own, other] : [other, own];
   }
 
-  judgeFrames(shown: Driven, { frames }: Path): Verdict {
+  judgeFrames(shown: Driven & { runs: unknown }, { frames }: Path): Verdict | null {
     const actions = frames.slice(0, -1).map((frame) => this.world(shown.world)?.actionOf(frame) ?? -1);
-    return this.judge(shown, actions, null);
+    return shown.runs ? this.judgeMove(shown, actions[0] ?? -1) : this.judge(shown, actions, null);
   }
 
   // What a reader is asked for: the whole path, or failing that the first move.

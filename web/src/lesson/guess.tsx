@@ -2,7 +2,8 @@
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { kMoves } from '../shared/board/geometry';
-import type { Path } from '../shared/board/types';
+import type { Intent } from '../shared/board/board';
+import type { Frame, Path } from '../shared/board/types';
 import { BoardPane, Things } from '../shared/play/board_pane';
 import { BoardAlone, Driver } from '../shared/play/driver';
 import { useDrive } from '../shared/play/drive';
@@ -66,22 +67,29 @@ function Choosing({ shown, paths, board, legend, worlds, onGuess }: ChoosingProp
       <ul class="lines">
         {paths.map((path, i) => (
           <li>
-            <SmallBoard board={board} legend={legend} path={path} kind="plain" />
-            <Button onClick={() => onGuess({ mine: path, verdict: worlds.judgeFrames(shown, path) })}>Path {kLetters[i]}</Button>
+            {shown.runs && board.map ? (
+              <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" isSmall intents={intentsOf(board.start, path.frames[0]?.action)} />
+            ) : (
+              <SmallBoard board={board} legend={legend} path={path} kind="plain" />
+            )}
+            <Button onClick={() => onGuess({ mine: path, verdict: worlds.judgeFrames(shown, path) })}>
+              {shown.runs ? capitalised(actionLabel(path.frames[0]?.action ?? '')) : `Path ${kLetters[i]}`}
+            </Button>
           </li>
         ))}
       </ul>
-      <Ledger board={board} columns={paths.map(({ frames }, i) => ({ name: kLetters[i] ?? '', kind: 'plain', counts: countsOf(frames) }))} />
+      {!shown.runs && <Ledger board={board} columns={paths.map(({ frames }, i) => ({ name: kLetters[i] ?? '', kind: 'plain', counts: countsOf(frames) }))} />}
     </div>
   );
 }
+
+const intentsOf = ({ robot }: Frame, action: string | null | undefined): Intent[] =>
+  robot && action && kMoves[action] ? [{ cell: robot, action, kind: 'other' }] : [];
 
 // The first move only.
 function Moving({ shown, submit, onGuess, legend, worlds, board, world, skipped }: DrivingProps): JSX.Element {
   const [chosen, setChosen] = useState<number | null>(null);
   const name = world.actions[chosen ?? -1]?.name ?? '';
-  const robot = shown.start.robot;
-  const intents = robot && kMoves[name] ? [{ cell: robot, action: name, kind: 'other' as const }] : [];
   const done = (): void => {
     if (chosen === null) return;
     const states = world.walk(shown.state, [chosen]);
@@ -90,21 +98,23 @@ function Moving({ shown, submit, onGuess, legend, worlds, board, world, skipped 
   return (
     <div class="board-screen">
       <div class="board-column">
-        {board.map ? <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" beginsWhole intents={intents} /> : <StateCard frame={board.start} />}
+        {board.map ? <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" beginsWhole intents={intentsOf(board.start, name)} /> : <StateCard frame={board.start} />}
         {board.map && <Things board={board} legend={legend} lines={[]} walked={[]} />}
       </div>
       <div class="side">
-        <Pad actions={world.actions} off={false} canDo={(action) => world.after(shown.state, action) !== null} onAction={setChosen} />
-        <div class="submit">
-          <div class="buttons">
-            <Button primary={chosen !== null} off={chosen === null} onClick={done}>
-              {submit}
-            </Button>
-            {skipped}
+        <div class="act-bar driving">
+          <Pad actions={world.actions} off={false} canDo={(action) => world.after(shown.state, action) !== null} onAction={setChosen} />
+          <div class="submit">
+            <div class="buttons">
+              <Button primary={chosen !== null} off={chosen === null} onClick={done}>
+                {submit}
+              </Button>
+              {skipped}
+            </div>
+            <p class="muted" role="status">
+              {chosen === null ? 'Choose its first move.' : `Your choice: ${capitalised(actionLabel(name))}.`}
+            </p>
           </div>
-          <p class="muted" role="status">
-            {chosen === null ? 'Choose its first move.' : `Your choice: ${capitalised(actionLabel(name))}.`}
-          </p>
         </div>
       </div>
     </div>

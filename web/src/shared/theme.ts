@@ -10,7 +10,7 @@ function boardScheme(which: 0 | 1): Scheme {
   const of = (pair: string[]): string => pair[which] ?? '';
   return Object.fromEntries([
     ...Object.entries(colors).map(([name, pair]) => [`board-${name}`, of(pair)]),
-    ['robot', of(colors.own)], // beside boards: what these change does not concern them
+    ['robot', of(colors.own)], // elsewhere than on boards, which may have another pair
     ['person', of(colors.other)],
     ...tints.flatMap(({ name, ground, mark }) => [
       [`tint-${name}`, of(ground)],
