@@ -27,7 +27,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ITEMS = (4, 8, 15, 25, 40)
-SHOWN = (4, 15)  # on the page
+SHOWN = (4, 15, 40)  # on the page
 PAPER = ("individual-low", "individual-high", "common", "joint")
 WHOLE = ('teacher.scaffold="none"', 'stop.mastery="fixed"')
 # Name, kind of strategy, settings.
