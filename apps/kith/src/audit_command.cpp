@@ -265,8 +265,8 @@ void declare(OptionList& list, AuditCommandOptions& options) {
   const auto room = list.text("--room", options.room, "ID", "Only this room of live sessions, by id or code");
   const auto out =
       list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
-  const auto knowing = list.text("--knowing", options.knowing, "DOMAIN",
-                                 "The robot before an update, to say who still believes in it");
+  const auto knowing =
+      list.text("--knowing", options.knowing, "DOMAIN", "The robot before an update, to say who still believes in it");
   list.number("--forgetting", options.forgetting, "ANGLE", {0.0, kLargestNumber},
               "Radians by which beliefs blur in a period without lessons; 0: people forget nothing");
   list.text("--exam", options.exam, "DOMAIN", "Rehearse an exam with simulated people instead; a name or a file")

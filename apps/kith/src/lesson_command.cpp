@@ -122,7 +122,8 @@ void declare(OptionList& list, LessonOptions& options) {
   list.flag("--playground", options.is_playground,
             "The robot with sliders and a board to paint, and its file, instead of the lesson alone");
   list.flag("--exam", options.has_exam, "An exam at the end, like group.exam of a study; the page is then adaptive");
-  list.texts("--origin", options.origins, "URL", "Tell the page around the lesson how it goes, if that page is from this origin");
+  list.texts("--origin", options.origins, "URL",
+             "Tell the page around the lesson how it goes, if that page is from this origin");
   list.texts("--set", options.set, "KEY=VALUE", "Change a key of the study, as in 'kith study'");
 }
 

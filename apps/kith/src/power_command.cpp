@@ -274,8 +274,7 @@ void declare(OptionList& list, PowerCommandOptions& options) {
             "For --preregister: the run folder in which to look for a finished run (default: results/ID)");
   list.integer("--studies", options.studies, {2, 100'000}, "Repetitions for --findings");
   list.threads(options.threads, "; never changes a result");
-  list.integer("--seed", options.seed, {},
-               "Random seed (default: that of the study); never the study's own teams");
+  list.integer("--seed", options.seed, {}, "Random seed (default: that of the study); never the study's own teams");
   list.set(options.set);
   list.progress(options.progress);
   list.json();

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "kith/analysis/anova.hpp"
 #include "kith/analysis/marginal_means.hpp"
 

@@ -47,7 +47,8 @@ class Splitter {
   }
 
  private:
-  // What was read before: nothing of a record, or of a field; part of a field; a quote inside of quotes or at their end.
+  // What was read before: nothing of a record, or of a field; part of a field; a quote inside of quotes or at their
+  // end.
   enum class State { kRecord, kField, kPlain, kQuoted, kQuote };
 
   void end_field(CsvRecord& record, State next) {

@@ -1,8 +1,8 @@
 #include "exploration.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 #include "kith/core/error.hpp"

@@ -22,7 +22,8 @@ struct Exploration {
 /// Whether people can explore the worlds of a domain: there is a map or a picture, small enough to be changed by hand.
 [[nodiscard]] bool can_explore(const Domain& domain);
 
-/// Symbols of things that can be put anywhere on the map: floor, walls, terrain, stations. None if it cannot be changed.
+/// Symbols of things that can be put anywhere on the map: floor, walls, terrain, stations. None if it cannot be
+/// changed.
 [[nodiscard]] std::vector<std::string> placeable_symbols(const LiveStudy& study);
 
 /// Between which bounds features lie by the prior and whatever else is known: brackets_json().

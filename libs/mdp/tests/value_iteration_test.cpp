@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
 #include "small_mdps.hpp"
