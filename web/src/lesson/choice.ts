@@ -37,7 +37,7 @@ export function choiceText({ domain }: Lesson, robot: number[], mine: number[]):
   if (all.length === 0 || all.length > 2 || worth <= 0 || all.some(({ n }) => n !== Math.round(n))) return '';
   const words = (isTaken: boolean, between: string): string => {
     const some = all.filter((one) => one.isTaken === isTaken).sort((a, b) => a.feature.weight - b.feature.weight);
-    return some.map(deed).join(some.every(({ feature }) => feature.weight < 0) ? between : ' to ');
+    return some.map(deed).join(new Set(some.map(({ feature }) => feature.weight < 0)).size === 1 ? between : ' to ');
   };
   const [taken, spared] = [words(true, ' and '), words(false, ' or ')];
   if (spared === '') return all.every(({ feature }) => feature.weight > 0) ? `it would rather ${taken} than not` : `it will ${taken}`;

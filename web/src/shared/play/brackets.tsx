@@ -17,13 +17,17 @@ export interface Bracket {
 
 const valueOf = (ratio: Ratio | null): number | null => (ratio ? ratio[0] / ratio[1] : null);
 
+// Whether it is known that something costs, or that it is worth something: else there is nothing to say.
+const isSigned = ({ low, high }: Bracket): boolean => (valueOf(high) ?? 1) <= 0 || (valueOf(low) ?? -1) >= 0;
+
 // `counted` names the unit, and features where the sentence, which is English, cannot be said.
 export function Brackets({ brackets, counted = [], title = t('brackets.title') }: { brackets: Bracket[]; counted: Counted[] | undefined; title?: string }): JSX.Element | null {
-  if (brackets.length === 0) return null;
+  const all = brackets.filter(isSigned);
+  if (all.length === 0) return null;
   return (
     <div class="brackets">
       <p class="brackets-title">{title}</p>
-      {brackets.map((bracket) => (
+      {all.map((bracket) => (
         <Scale bracket={bracket} counted={counted} />
       ))}
     </div>
@@ -42,32 +46,30 @@ function inNumbers({ feature, reference, ends: [from, to] }: Bracket, counted: C
   return capitalised(t(`brackets.${ends}`, { what: labelOf(what), unit: labelOf(unit), from, to }));
 }
 
-// Costs and gains alike grow to the right; where neither is known, costs are to the left of nought.
+// Costs and gains alike grow to the right.
 function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): JSX.Element {
   const [low, high] = [valueOf(bracket.low), valueOf(bracket.high)];
   const isCost = high !== null && high <= 0;
-  const [from, to] = isCost ? [-high, low === null ? null : -low] : [low, high];
-  const ends = [from, to].flatMap((end) => (end === null ? [] : [end]));
-  const most = Math.max(2, ...ends.map((end) => Math.ceil(Math.abs(end) * 1.5)));
-  const least = from === null || from < 0 ? -most : 0;
-  const place = (x: number): number => kSide + ((x - least) / (most - least)) * (kWidth - kSide - kRight);
-  const [left, right] = [from === null ? kSide : place(from), to === null ? kWidth - kRight : place(to)];
-  const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].find((one) => (most - least) / one <= 8) ?? 2000;
+  const [from, to] = isCost ? [-high, low === null ? null : -low] : [low ?? 0, high];
+  const most = Math.max(2, Math.ceil((to ?? from) * 1.5));
+  const place = (x: number): number => kSide + (x / most) * (kWidth - kSide - kRight);
+  const [left, right] = [place(from), to === null ? kWidth - kRight : place(to)];
+  const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].find((one) => most / one <= 8) ?? 2000;
   const ticks: number[] = [];
-  for (let x = Math.ceil(least / step) * step; x <= most; x += step) ticks.push(x);
+  for (let x = 0; x <= most; x += step) ticks.push(x);
   return (
     <div class="bracket">
       <p>{isEnglish() ? sentence(bracket.text) : inNumbers(bracket, counted)}</p>
-      {ends.some((end) => end !== 0) && ( // a scale tells nothing where only the sign is known
+      {(from > 0 || to !== null) && ( // a scale tells nothing where only the sign is known
         <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
           <path class="axis" d={`M${kSide} 13H${kWidth - kRight}`} />
           <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />
-          {from !== null && from !== 0 && <path class="end" d={`M${left} 3V23`} />}
+          {from > 0 && <path class="end" d={`M${left} 3V23`} />}
           {to !== null && <path class="end" d={`M${right} 3V23`} />}
           {to === null && <path class="on" d={`M${right - 3} 7l6 6-6 6`} />}
           {ticks.map((x, i) => (
             <text x={place(x) - (i + 1 < ticks.length ? 0 : 4)} y={36} text-anchor={i + 1 < ticks.length ? 'middle' : 'start'} font-size={12}>
-              {Math.abs(x)} {i + 1 < ticks.length ? '' : (counted[bracket.reference]?.many ?? '')}
+              {x} {i + 1 < ticks.length ? '' : (counted[bracket.reference]?.many ?? '')}
             </text>
           ))}
         </svg>
