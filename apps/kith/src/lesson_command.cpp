@@ -119,8 +119,7 @@ void declare(OptionList& list, LessonOptions& options) {
             "A page that chooses each lesson by the answers so far, as that of a study and a .zip always do");
   list.integer("--seed", options.seed, {}, "Seed of all random streams of a lesson that does not adapt");
   list.json();
-  list.flag("--playground", options.is_playground,
-            "The robot with sliders and a board to paint, and its file, instead of the lesson alone");
+  list.flag("--playground", options.is_playground, "Sliders and a board to paint instead of the lesson alone");
   list.flag("--exam", options.has_exam, "An exam at the end, like group.exam of a study; the page is then adaptive");
   list.texts("--origin", options.origins, "URL",
              "Tell the page around the lesson how it goes, if that page is from this origin");

@@ -80,8 +80,7 @@ class Engine {
   }
 
  private:
-  // Reads the study and its domain.
-  // @return warnings, as texts.
+  // @return warnings about the study and its domain, as texts.
   Json read(const Json& inputs) {
     fs::create_directories(kFolder);
     for (const auto& [name, text] : inputs.items()) {

@@ -191,17 +191,10 @@ namespace {
 
 // Why nothing can be told.
 std::string doubt_in_words(Doubt doubt) {
-  switch (doubt) {
-    case Doubt::kNone:
-      return "";
-    case Doubt::kAnswers:
-      return "the answers do not decide it";
-    case Doubt::kLearning:
-      return "somebody who guesses or learns nothing might answer like this";
-    case Doubt::kStopping:
-      break;
-  }
-  return "somebody who has stopped learning might answer like this";
+  if (doubt == Doubt::kNone) return "";
+  if (doubt == Doubt::kAnswers) return "the answers do not decide it";
+  return std::string{"somebody who "} +
+         (doubt == Doubt::kLearning ? "guesses or learns nothing" : "has stopped learning") + " might answer like this";
 }
 
 }  // namespace
