@@ -1,4 +1,5 @@
 #include "own_kinds.hpp"
+
 #include <set>
 
 namespace kith::python {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
 #include "kith/geometry/cone.hpp"
 
 namespace kith::rivals {

@@ -1,6 +1,6 @@
 // The page: a Markdown file with generated parts between comments.
 //
-//   <!--table NAME--> ... <!--end-->   a table, made by the content of the page (teachers_content.mjs, validation_content.mjs)
+//   <!--table NAME--> ... <!--end-->   a table, made by the content of the page (such as validation_content.mjs)
 //   <!--f NAME-->7.72<!--/f-->         a figure in a sentence
 //   <!--holds NAME-->                  the sentence before it states what a claim of the content tests
 //

@@ -17,8 +17,8 @@ import { parseArgs } from 'node:util';
 import { compareTables, describe, findTypedFigures, parsePage, printPage, printTable } from './page.mjs';
 import { Runs } from './runs.mjs';
 import * as gallery from './gallery_content.mjs';
-import * as minds from './minds_content.mjs';
-import * as teachers from './teachers_content.mjs';
+import * as minds from '../../research/teachers/minds_content.mjs';
+import * as teachers from '../../research/teachers/teachers_content.mjs';
 import * as validation from './validation_content.mjs';
 
 const source = resolve(dirname(fileURLToPath(import.meta.url)), '../..');

@@ -37,17 +37,6 @@ TEST_F(AnalyzeCommand, AnswersTheQuestionsOfAStudyInWordsAndTables) {
   EXPECT_THAT(ran, Not(ContainsRegex("\\b(nan|inf)\\b")));
 }
 
-TEST_F(AnalyzeCommand, TakesTeamsOfOtherPeopleAsIndependent) {
-  const std::string others = *scratch_ / "others";
-  ASSERT_EQ(
-      run_kith({"study", "paper", "-o", others, "-q", "--set", "replicates=2", "--set", "design.pairing=\"none\""})
-          .code,
-      0);
-  EXPECT_THAT(out_of({"analyze", others, "--all"}),
-              AllOf(HasSubstr("(32 teams)"), HasSubstr("Analysis of variance (type II)"), HasSubstr("Kaplan-Meier"),
-                    HasSubstr("Welch's t test"), Not(HasSubstr("Tests of the fixed effects"))));
-}
-
 TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
   const auto ran = run_kith({"analyze", folder(), "--brief"});
   EXPECT_THAT(ran.out, AllOf(HasSubstr("No effect of strategy was found"), Not(HasSubstr("  p-value"))));

@@ -295,22 +295,6 @@ TEST(Validate, ReadsAPipe) {
 
 // --- domains ----------------------------------------------------------------------
 
-TEST(Words, WithBlanksAroundThemAreUnderstoodByEveryCommand) {
-  auto text = text_of(fs::path{KITH_SOURCE_DIR} / "domains" / "item_delivery.toml");
-  const auto at = text.find("\"crossing rubble\"");
-  ASSERT_NE(at, std::string::npos);
-  const Scratch scratch;
-  write_text(scratch / "d.toml", text.insert(at + 1, " "));
-  for (const auto& command :
-       std::vector<std::vector<std::string>>{{"find", scratch / "d.toml"},
-                                             {"inspect", scratch / "d.toml"},
-                                             {"ask", scratch / "d.toml", "when does it recharge?"},
-                                             {"lesson", scratch / "d.toml"}}) {
-    EXPECT_EQ(run_kith(command).code, 0) << command.front();
-  }
-  EXPECT_THAT(run_kith({"validate", scratch / "d.toml"}).err, HasSubstr("W0305"));
-}
-
 TEST(Discount, NextToOneIsRefusedBeforeAStudyBegins) {
   auto text = text_of(fs::path{KITH_SOURCE_DIR} / "domains" / "navigation.toml");
   const auto line = text.find("discount");

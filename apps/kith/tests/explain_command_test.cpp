@@ -138,17 +138,6 @@ TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {
   EXPECT_EQ(run_kith({"lesson", "item-delivery", "-o", "-", "--json"}).code, 2);
 }
 
-TEST(CurriculumCommand, NamesAllThatASymbolPutsOnACell) {
-  const auto document = json_of({"lesson", "item-delivery"});
-  for (const auto& entry : document["domain"]["legend"]) {
-    EXPECT_EQ(entry.at("kind"), entry.at("parts").at(0).at("kind"));
-    if (entry["symbol"] == "S") {
-      EXPECT_EQ(entry["parts"],
-                Json::parse(R"([{"kind": "start", "name": "start"}, {"kind": "item", "name": "parcel"}])"));
-    }
-  }
-}
-
 TEST(FindCommand, ListsWhatCanBeIsolated) {
   EXPECT_THAT(out_of({"find", "item-delivery"}), HasSubstr("(-1,0,2): crossing rubble costs more than 2 steps"));
   const auto document = json_of({"find", "item-delivery"});
@@ -241,11 +230,6 @@ TEST(AskCommand, PointsAtWhatItDoesNotUnderstand) {
   const auto ran = err_of(3, {"ask", "item-delivery", "when does it rechrge?"});
   EXPECT_THAT(ran, AllOf(HasSubstr("question:1:14: error[E1103]: kith does not know the word 'rechrge'"),
                          HasSubstr("did you mean 'recharge'?")));
-}
-
-TEST(Inspect, DrawsEveryCellByItsOwnSymbol) {
-  EXPECT_THAT(run_kith({"inspect", "two-goals", "--mdp", "0", "--show", "map"}).out, HasSubstr("\n  A....    A....\n"));
-  EXPECT_THAT(run_kith({"inspect", "skateboard", "--show", "map"}).out, HasSubstr("\n  ppppqq    ppppqq\n"));
 }
 
 TEST(Init, WritesWhatRunsAsItIs) {

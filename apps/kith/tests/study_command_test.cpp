@@ -15,15 +15,6 @@ TEST(StudyCommand, PrintsATableAndSaysWhereTheTablesAre) {
   EXPECT_EQ(tables_in(scratch / "run").size(), 7u);
 }
 
-TEST(StudyCommand, GivesTheSameBytesOnAnyNumberOfThreads) {
-  const Scratch scratch;
-  for (const std::string threads : {"1", "2", "7"}) {
-    ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / threads, "-j", threads, "-q"}).code, 0);
-  }
-  EXPECT_EQ(tables_in(scratch / "1"), tables_in(scratch / "2"));
-  EXPECT_EQ(tables_in(scratch / "1"), tables_in(scratch / "7"));
-}
-
 TEST(StudyCommand, GivesOtherTeamsForAnotherSeed) {
   const Scratch scratch;
   ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "a"}).code, 0);

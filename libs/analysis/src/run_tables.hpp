@@ -1,7 +1,9 @@
 #pragma once
+
 #include <string>
 #include <utility>
 #include <vector>
+
 #include "kith/analysis/dataset.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/study/outcomes.hpp"

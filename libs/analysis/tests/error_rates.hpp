@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 #include <vector>
+
 #include "kith/core/distributions.hpp"
 
 // How often each documented analysis finds an effect that is not there: 1000 simulated studies without effects, tests

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
 #include "kith/core/error.hpp"
 
 namespace kith::testing {

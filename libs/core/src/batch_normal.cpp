@@ -1,4 +1,5 @@
 #include "kith/core/batch_normal.hpp"
+
 #include <bit>
 #include <cmath>
 #include <numbers>

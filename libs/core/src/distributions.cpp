@@ -1,4 +1,5 @@
 #include "kith/core/distributions.hpp"
+
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -5,39 +5,17 @@
 #include <stdexcept>
 #include <string>
 
+#include "domain_texts.hpp"
 #include "domains_under_test.hpp"
 
 namespace kith {
 namespace {
 
 // Two equally good ways round the mud in the middle; the exit is two steps from the start's corner.
-const std::string kTwoWays = R"(
-schema = "kith.domain/1"
-id = "two-ways"
-[mdp]
-actions = ["up", "down", "left", "right", "exit"]
-[map]
-rows = ["..G",
-        ".m.",
-        "S.."]
-[map.legend]
-"." = "floor"
-"m" = { terrain = "mud" }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "goal"
-when = "goal"
-[[feature]]
-name = "mud"
-when = "enter:mud"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { goal = 6, mud = -2.5, step = -0.5 }
-normalize = "l1"
-)";
+const std::string kTwoWays = testing::map_domain(
+    "two-ways", "\"..G\", \".m.\", \"S..\"", "\"m\" = { terrain = \"mud\" }\n",
+    {{"goal", "goal"}, {"mud", "enter:mud"}, {"step", "action"}}, "goal = 6, mud = -2.5, step = -0.5",
+    "normalize = \"l1\"\n", "[mdp]\nactions = [\"up\", \"down\", \"left\", \"right\", \"exit\"]\n");
 
 const Domain& two_ways() {
   static const Domain domain = sound_domain(kTwoWays);

@@ -6,6 +6,7 @@
 #include <queue>
 #include <set>
 
+#include "domain_texts.hpp"
 #include "domains_under_test.hpp"
 
 namespace kith {
@@ -15,30 +16,12 @@ using ::testing::ElementsAre;
 
 // Two kinds of optional terrain, three cells each, and one more charger.
 std::string with_family(const std::string& family) {
-  return "schema = \"kith.domain/1\"\nid = \"thin\"\n" + family + R"(
-[map]
-rows = ["S.r.g.C",
-        "..r.g..",
-        "..r.g.G"]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble", optional = true }
-"g" = { terrain = "grass", optional = true }
-"C" = { station = "charger", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "charge"
-when = "leave:charger"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -2.5, charge = 1.5, step = -1 }
-)";
+  return testing::map_domain("thin", "\"S.r.g.C\", \"..r.g..\", \"..r.g.G\"",
+                             "\"r\" = { terrain = \"rubble\", optional = true }\n"
+                             "\"g\" = { terrain = \"grass\", optional = true }\n"
+                             "\"C\" = { station = \"charger\", optional = true }\n",
+                             {{"rubble", "leave:rubble"}, {"charge", "leave:charger"}, {"step", "action"}},
+                             "rubble = -2.5, charge = 1.5, step = -1", "", family + "\n");
 }
 
 std::vector<std::string> worlds_of(const Domain& domain) {

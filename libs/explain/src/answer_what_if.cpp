@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <vector>
+
 #include "kith/explain/words.hpp"
 
 namespace kith::detail {

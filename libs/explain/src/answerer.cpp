@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/mdp/behaviour.hpp"
 

@@ -38,6 +38,7 @@ std::vector<std::string> spelled_out(const std::string& phrase) {
 
 constexpr std::pair<Meaning, const char*> kTable[] = {
 #define WORDS(meaning, phrases) {Meaning::meaning, phrases},
+#include "question_words.def"
 };
 
 std::vector<std::vector<std::string>> rows_of(Meaning meaning) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "domain_texts.hpp"
 #include "kith/bec/atlas.hpp"
 #include "kith/domains/domain_file.hpp"
 
@@ -28,30 +29,9 @@ namespace kith::testing {
 inline const std::vector<std::string> kSmallDomains{"item-delivery", "skateboard", "two-goals", "cookie-crumb"};
 
 /// A domain with one road, five cells long, that has everything on it: whatever the robot likes, it takes it.
-inline const std::string kOneRoad = R"(schema = "kith.domain/1"
-id = "one-road"
-[map]
-rows = ["S.r.G"]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "arrival"
-when = "goal"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -2, arrival = 1, step = -1 }
-[prior]
-halfspaces = [ { step = -1 } ]
-[words]
-step = "a step"
-)";
+inline const std::string kOneRoad = map_domain(
+    "one-road", "\"S.r.G\"", "\"r\" = { terrain = \"rubble\", optional = true }\n",
+    {{"rubble", "leave:rubble"}, {"arrival", "goal"}, {"step", "action"}}, "rubble = -2, arrival = 1, step = -1",
+    "[prior]\nhalfspaces = [ { step = -1 } ]\n[words]\nstep = \"a step\"\n");
 
 }  // namespace kith::testing

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlases.hpp"
+#include "domain_texts.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/reason.hpp"
 
@@ -16,28 +17,11 @@ std::string sentence(const std::string& domain, const IntegerVector& normal) {
 
 // A domain with these weights and words for mud, dock and step.
 Domain domain_with(const std::string& weights, const std::string& words) {
-  auto reading = parse_domain(R"(schema = "kith.domain/1"
-id = "tiny"
-[map]
-rows = ["S.mDG"]
-[map.legend]
-"." = "floor"
-"m" = { terrain = "mud", optional = true }
-"D" = { station = "dock", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "mud"
-when = "leave:mud"
-[[feature]]
-name = "dock"
-when = "leave:dock"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = )" + weights + "\n[words]\n" +
-                                  words,
+  auto reading = parse_domain(testing::map_domain("tiny", "\"S.mDG\"",
+                                                  "\"m\" = { terrain = \"mud\", optional = true }\n"
+                                                  "\"D\" = { station = \"dock\", optional = true }\n",
+                                                  {{"mud", "leave:mud"}, {"dock", "leave:dock"}, {"step", "action"}},
+                                                  weights, "[words]\n" + words),
                               "test.toml");
   for (const auto& diagnostic : reading.diagnostics) {
     EXPECT_NE(diagnostic.severity, Severity::kError) << to_text(diagnostic);
@@ -94,7 +78,7 @@ TEST(InWords, PrefersWhereItContradictsTheRobotTwice) {
 }
 
 TEST(InWords, SaysAtLeastWhereTheRobotIsIndifferent) {
-  const auto domain = domain_with("{ mud = -2, dock = 3, step = -1 }",
+  const auto domain = domain_with("mud = -2, dock = 3, step = -1",
                                   "mud = \"crossing mud\"\nstep = \"a step\"\n"
                                   "dock = \"stopping at the dock\"\n");
   EXPECT_EQ(in_words(domain, HalfSpace{{-1, 0, 2}}), "crossing mud costs at least as much as 2 steps");
@@ -103,9 +87,8 @@ TEST(InWords, SaysAtLeastWhereTheRobotIsIndifferent) {
 }
 
 const Domain& mud_and_dock() {
-  static const Domain domain =
-      domain_with("{ mud = -2, dock = 3, step = -1 }",
-                  "mud = \"crossing mud\"\nstep = \"a step\"\ndock = \"stopping at the dock\"\n");
+  static const Domain domain = domain_with(
+      "mud = -2, dock = 3, step = -1", "mud = \"crossing mud\"\nstep = \"a step\"\ndock = \"stopping at the dock\"\n");
   return domain;
 }
 
@@ -176,8 +159,7 @@ TEST(Chance, OfAPathIsAProductAndIsLeftOutWhereItIsCertain) {
 }
 
 TEST(InWords, AvoidsTheVerbWhereWordsDoNotTellTheirNumber) {
-  const auto domain =
-      domain_with("{ mud = -2, dock = 2.5, step = -1 }", "mud = \"mud crossings\"\nstep = \"a step\"\n");
+  const auto domain = domain_with("mud = -2, dock = 2.5, step = -1", "mud = \"mud crossings\"\nstep = \"a step\"\n");
   EXPECT_EQ(in_words(domain, HalfSpace{{-1, 0, 1}}), "the cost of mud crossings outweighs the cost of a step");
   EXPECT_EQ(in_words(domain, HalfSpace{{0, 1, 2}}), "the gain of dock outweighs the cost of 2 steps");
 }
@@ -264,7 +246,7 @@ TEST(Reason, ComparesTwoGains) {
 }
 
 TEST(Reason, AcceptsAndChoosesWhatHasNoVerb) {
-  const auto domain = domain_with("{ mud = -2.2, dock = 2.5, step = -1 }",
+  const auto domain = domain_with("mud = -2.2, dock = 2.5, step = -1",
                                   "mud = \"crossing mud\"\ndock = \"stopping at the dock\"\nstep = \"a step\"\n");
   EXPECT_EQ(choice_in_words(domain, {0, 0, 7}, {1, 0, 5}),
             "it would rather accept 2 more steps than accept crossing mud");
@@ -272,7 +254,7 @@ TEST(Reason, AcceptsAndChoosesWhatHasNoVerb) {
 }
 
 TEST(Reason, AdmitsIndifference) {
-  const auto domain = domain_with("{ mud = -2, dock = 2.5, step = -1 }",
+  const auto domain = domain_with("mud = -2, dock = 2.5, step = -1",
                                   "mud = { one = \"crossing mud\", do = \"cross mud\" }\n"
                                   "dock = \"stopping at the dock\"\n"
                                   "step = { one = \"a step\", do = \"take a step\" }\n");
@@ -298,7 +280,7 @@ TEST(ActionsText, CountsRepetitions) {
 TEST(InWords, TakesAnyWordsThatADomainMayHave) {
   for (const std::string words :
        {" crossing mud", "crossing  mud", ",", "a ", ",ing", "{n}", "ing", "a ,", "one", "\\u001b"}) {
-    const auto domain = domain_with("{ mud = -2, dock = 3, step = -1 }", "mud = \"" + words + "\"\n");
+    const auto domain = domain_with("mud = -2, dock = 3, step = -1", "mud = \"" + words + "\"\n");
     for (const IntegerVector& normal : {IntegerVector{-1, 0, 2}, IntegerVector{2, 1, 0}, IntegerVector{-3, -1, 1}}) {
       EXPECT_FALSE(in_words(domain, HalfSpace{normal}).empty()) << words;
     }

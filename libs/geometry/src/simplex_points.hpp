@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <vector>
+
 #include "sobol.hpp"
 
 namespace kith::detail {

@@ -17,40 +17,13 @@ namespace kith {
 namespace {
 
 // Rubble, smoke and a charger on the way to a goal: four features.
-constexpr const char* kFourFeatures = R"(
-schema = "kith.domain/1"
-id = "four"
-[mdp]
-discount = 1.0
-[map]
-rows = ["..r.G",
-        ".#s#.",
-        "S.rBs"]
-[map.legend]
-"#" = "wall"
-"." = "floor"
-"r" = { terrain = "rubble", optional = true }
-"s" = { terrain = "smoke", optional = true }
-"B" = { station = "charger", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "smoke"
-when = "leave:smoke"
-[[feature]]
-name = "recharge"
-when = "leave:charger"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -3, smoke = -1.5, recharge = 2.5, step = -1 }
-[prior]
-halfspaces = [ { step = -1 } ]
-)";
+const std::string kFourFeatures = testing::map_domain(
+    "four", "\"..r.G\", \".#s#.\", \"S.rBs\"",
+    "\"#\" = \"wall\"\n\"r\" = { terrain = \"rubble\", optional = true }\n"
+    "\"s\" = { terrain = \"smoke\", optional = true }\n\"B\" = { station = \"charger\", optional = true }\n",
+    {{"rubble", "leave:rubble"}, {"smoke", "leave:smoke"}, {"recharge", "leave:charger"}, {"step", "action"}},
+    "rubble = -3, smoke = -1.5, recharge = 2.5, step = -1", "[prior]\nhalfspaces = [ { step = -1 } ]\n",
+    "[mdp]\ndiscount = 1.0\n");
 
 const std::string kTwoFeatures =
     testing::rubble_domain("\"..rG\", \".#r.\", \"S...\"", "[prior]\nhalfspaces = [ { step = -1 } ]\n");

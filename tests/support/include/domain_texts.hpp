@@ -2,44 +2,34 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace kith::testing {
 
-/// A domain file: floor ".", wall "#", rubble "r" that may be absent, start "S" and goal "G"; rubble and steps count.
-/// @param rows  as in the file: `"S.rG"`, commas between them.
-/// @param more  what follows the reward.
-[[nodiscard]] inline std::string rubble_domain(const std::string& rows, const std::string& more = "") {
-  return "schema = \"kith.domain/1\"\nid = \"rubble\"\n[map]\nrows = [" + rows + R"(]
-[map.legend]
-"." = "floor"
-"#" = "wall"
-"r" = { terrain = "rubble", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -3, step = -1 }
-)" + more;
+/// A domain file: floor ".", start "S", goal "G" and what `legend` has.
+/// @param rows      as in the file: `"S.rG"`, commas between them. @param legend  further symbols, a line each.
+/// @param features  each with its condition. @param weights  "rubble = -3, step = -1".
+/// @param more      what follows the weights. @param before  what stands before the map.
+[[nodiscard]] inline std::string map_domain(const std::string& id, const std::string& rows, const std::string& legend,
+                                            const std::vector<std::pair<std::string, std::string>>& features,
+                                            const std::string& weights, const std::string& more = "",
+                                            const std::string& before = "") {
+  auto text = "schema = \"kith.domain/1\"\nid = \"" + id + "\"\n" + before + "[map]\nrows = [" + rows +
+              "]\n[map.legend]\n\".\" = \"floor\"\n" + legend + "\"S\" = { start = true }\n\"G\" = { goal = true }\n";
+  for (const auto& [name, when] : features) text += "[[feature]]\nname = \"" + name + "\"\nwhen = \"" + when + "\"\n";
+  return text + "[reward]\nweights = { " + weights + " }\n" + more;
 }
 
-/// A domain file in which nothing but steps counts.
+/// With walls "#" and rubble "r" that may be absent; rubble and steps count.
+[[nodiscard]] inline std::string rubble_domain(const std::string& rows, const std::string& more = "") {
+  return map_domain("rubble", rows, "\"#\" = \"wall\"\n\"r\" = { terrain = \"rubble\", optional = true }\n",
+                    {{"rubble", "leave:rubble"}, {"step", "action"}}, "rubble = -3, step = -1", more);
+}
+
+/// In which nothing but steps counts.
 [[nodiscard]] inline std::string steps_domain(const std::string& rows) {
-  return "schema = \"kith.domain/1\"\nid = \"steps\"\n[map]\nrows = [" + rows + R"(]
-[map.legend]
-"." = "floor"
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { step = -1 }
-)";
+  return map_domain("steps", rows, "", {{"step", "action"}}, "step = -1");
 }
 
 /// A domain file: side x side cells, from the lower left corner to the upper right one.
@@ -54,25 +44,9 @@ template <typename SymbolAt>
     if (y + 1 == side) row.front() = 'S';
     rows += (y == 0 ? "\"" : ",\n\"") + row + '"';
   }
-  return "schema = \"kith.domain/1\"\nid = \"terrain\"\n[mdp]\nmax_steps = 10000\n[map]\nrows = [" + rows + R"(]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble" }
-"m" = { terrain = "mud" }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "mud"
-when = "leave:mud"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -2.7, mud = -1.3, step = -1 }
-)";
+  return map_domain("terrain", rows, "\"r\" = { terrain = \"rubble\" }\n\"m\" = { terrain = \"mud\" }\n",
+                    {{"rubble", "leave:rubble"}, {"mud", "leave:mud"}, {"step", "action"}},
+                    "rubble = -2.7, mud = -1.3, step = -1", "", "[mdp]\nmax_steps = 10000\n");
 }
 
 /// Four features, of which people in the way are met in one world only; 3 worlds. Without tables.

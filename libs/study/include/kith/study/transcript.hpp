@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+
 #include "kith/teaching/forecast.hpp"
 
 namespace kith {

@@ -1,8 +1,8 @@
 // The tables and claims of research/teachers/minds.md.
-import { study } from './runs.mjs';
-import { errorOfMean, groupBy, mean } from './statistics.mjs';
+import { study } from '../../tests/validation/runs.mjs';
+import { errorOfMean, groupBy, mean } from '../../tests/validation/statistics.mjs';
 import { teamsAfter } from './items.mjs';
-import { figure, percent, withError } from './format.mjs';
+import { figure, percent, withError } from '../../tests/validation/format.mjs';
 
 const MINDS = 'studies/minds.toml';
 const KINDS = ['bayesian', 'slipping', 'noisy-rational', 'imitating', 'misconceived', 'decaying'];

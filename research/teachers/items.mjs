@@ -1,5 +1,5 @@
 // What people get wrong after so many items (demonstrations and tests).
-import { groupBy, mean } from './statistics.mjs';
+import { groupBy, mean } from '../../tests/validation/statistics.mjs';
 
 // Linear between the points of a path [[items, value], ...], level after the last.
 function valueAt(path, items) {

@@ -1,8 +1,8 @@
 // The tables and claims of research/teachers/teachers.md.
-import { study } from './runs.mjs';
-import { areaUnderCurve, correlation, errorOfMean, groupBy, mean, share } from './statistics.mjs';
+import { study } from '../../tests/validation/runs.mjs';
+import { areaUnderCurve, correlation, errorOfMean, groupBy, mean, share } from '../../tests/validation/statistics.mjs';
 import { teamsAfter } from './items.mjs';
-import { figure, fixed, withError } from './format.mjs';
+import { figure, fixed, withError } from '../../tests/validation/format.mjs';
 
 const TEACHERS = 'studies/teachers.toml';
 const MIXED = 'studies/teachers-mixed.toml';
