@@ -29,10 +29,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostOfForty = 25;   // in all pages of records but one
 constexpr std::size_t kRootOfRecords = 4;  // the page that leads to them
 
-JournalIdentity identity(std::size_t teams = 100) { return {{"study", "domain"}, "kith 1", teams, {}, "bits"}; }
+JournalIdentity identity(std::size_t teams = 100) { return {{"study", "domain"}, "kith 1", teams, {}}; }
 
 // Of other work on the same teams.
-JournalIdentity other_identity() { return {{"another study", "domain"}, "kith 1", 100, {}, "bits"}; }
+JournalIdentity other_identity() { return {{"another study", "domain"}, "kith 1", 100, {}}; }
 
 JournalEntry entry(std::size_t team, const JournalIdentity& whose = identity()) {
   TeamRecord record;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kith/files/atomic_file.hpp"
 #include "kith/files/sqlite.hpp"
 #include "store_support.hpp"
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kTeams = 12;
 
 const JournalIdentity& identity() {
-  static const JournalIdentity kIdentity{{"a study", "a domain"}, "1.0", kTeams, {}, "bits"};
+  static const JournalIdentity kIdentity{{"a study", "a domain"}, "1.0", kTeams, {}};
   return kIdentity;
 }
 
