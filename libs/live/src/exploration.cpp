@@ -141,7 +141,7 @@ Exploration explored(const Atlas& atlas, StartIndex start) {
   const auto world = atlas.id(start).mdp;
   auto robot = expected_path(atlas, start);
   view::Found found;
-  found.at<"board">() = live_board(atlas, start);
+  found.at<"board">() = live_board(board_legend(domain), atlas, start);
   if (const auto contrast = trade(atlas, start)) {
     found.at<"other">() = path_json(domain, world, contrast->alternative);
     found.at<"differs_at">() = contrast->decisive;

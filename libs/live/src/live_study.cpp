@@ -14,7 +14,7 @@
 #include "kith/study/session_forecasts.hpp"
 #include "live_texts.hpp"
 #include "message_json.hpp"
-#include "room_state.hpp"
+#include "room_view.hpp"
 
 namespace kith {
 namespace {
@@ -219,6 +219,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   live->key = sha256(identity).substr(0, 8);
   if (const auto& known = live->spec.teaching.known) live->update = update_in_words(*atlas, *known);
+  live->legend = std::make_shared<const Json>(board_legend(atlas->domain()));
   live->atlas = std::move(atlas);
   require_cells(*live);
   require_places(*live);

@@ -91,6 +91,22 @@ template <typename T>
 // --- writing ---------------------------------------------------------------------------------------------------------
 
 template <typename T>
+bool is_unset(const T& value) {
+  if constexpr (requires { value == value; }) {
+    return value == T{};
+  } else {
+    return false;
+  }
+}
+template <typename T>
+bool is_unset(const std::optional<T>& value) {
+  return !value;
+}
+template <typename T>
+bool is_unset(const std::vector<T>& values) {
+  return values.empty();
+}
+template <typename T>
 [[nodiscard]] Json written(const T& value) {
   return value;
 }
@@ -111,8 +127,8 @@ Json written(const T& object) {
   Json json = Json::object();
   for_each_member(object, [&](const auto& member, const auto& value) {
     if (member.asked && !member.asked->is_stored) return;
+    if (member.may_miss && is_unset(value)) return;
     auto one = written(value);
-    if (member.may_miss && (one.is_null() || one == written(std::remove_cvref_t<decltype(value)>{}))) return;
     if (!member.name.empty()) {
       json[std::string{member.name}] = std::move(one);
     } else if (!one.is_null()) {

@@ -321,15 +321,18 @@ class ParticipantPage {
 
 }  // namespace
 
-Json live_board(const Atlas& atlas, StartIndex start) {
-  const auto& domain = atlas.domain();
+Json board_legend(const Domain& domain) {
   const auto all = board_domain_json(domain);
   Json legend{{"id", all["id"]}};
   for (const char* key : {"legend", "surfaces", "width", "height", "counted", "job"}) {
     if (all.contains(key)) legend[key] = all[key];
   }
+  return legend;
+}
+
+Json live_board(const Json& legend, const Atlas& atlas, StartIndex start) {
   Json board{{"domain", legend}};
-  board.update(board_json(domain, atlas.id(start)));
+  board.update(board_json(atlas.domain(), atlas.id(start)));
   return board;
 }
 

@@ -12,10 +12,12 @@ namespace kith {
 /// Milliseconds of microseconds, as views have them.
 [[nodiscard]] inline std::int64_t in_ms(std::int64_t us) noexcept { return us / 1000; }
 
-/// A board as participants get it: the legend of the domain and the map, nothing about rewards.
-[[nodiscard]] Json live_board(const Atlas& atlas, StartIndex start);
+/// What a board says of the domain: LiveStudy::legend.
+[[nodiscard]] Json board_legend(const Domain& domain);
+/// A board as participants get it: the legend of the domain and the map.
+[[nodiscard]] Json live_board(const Json& legend, const Atlas& atlas, StartIndex start);
 [[nodiscard]] inline Json live_board(const LiveStudy& study, StartIndex start) {
-  return live_board(*study.atlas, start);
+  return live_board(*study.legend, *study.atlas, start);
 }
 /// The robot's path from there: path_json().
 [[nodiscard]] Json robot_path(const LiveStudy& study, StartIndex start);

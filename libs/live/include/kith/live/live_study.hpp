@@ -36,6 +36,7 @@ struct LiveStudy {
   std::vector<StartIndex> screening;      ///< The tests of `group.screening`.
   std::optional<UpdateInWords> update{};  ///< For people who know the robot as it was before an update.
   std::string key;                        ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
+  std::shared_ptr<const Json> legend;     ///< What every board says of the domain: nothing about rewards.
   /// Imagined sessions by strategy and composition, for forecasts; empty unless StudySpec::forecast_sessions.
   std::map<std::pair<std::string, std::string>, std::vector<PastSession>> imagined;
 
