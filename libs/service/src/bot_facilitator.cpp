@@ -69,7 +69,7 @@ BotFacilitator::BotFacilitator(asio::io_context& io, const tcp::endpoint& server
     const auto type = frame.value("t", "");
     const std::lock_guard lock{shared->mutex};
     if (type == "welcome") shared->is_welcome = true;
-    if (type == "view") shared->view = std::move(frame["view"]);
+    if (type == "view" && frame["view"].is_object()) shared->view.update(frame["view"]);
     if (type == "ack" || type == "nak") ++shared->num_replies;
     if (type == "nak") shared->problem = frame.value("text", "refused");
     if (type == "bye") shared->problem = "the server said goodbye: " + frame.value("reason", "");

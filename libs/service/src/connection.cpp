@@ -1,5 +1,6 @@
 #include "connection.hpp"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace kith {
@@ -11,14 +12,14 @@ void Connection::answer(const std::string& message, const std::optional<Refusal>
 
 void Connection::show(Json view) {
   if (is_closed) return;
-  const auto time = view.find("server_ms");
-  const Json now = time == view.end() ? Json{} : *time;
-  if (time != view.end()) *time = 0;
+  const auto now = view.at("server_ms").dump();
+  view.erase("server_ms");
   auto text = view.dump();
   if (text == last_view) return;
   last_view = std::move(text);
-  if (time != view.end()) *time = now;
-  send({{"t", "view"}, {"view", std::move(view)}});
+  socket->send(std::make_shared<const std::string>(R"({"t":"view","view":)" +
+                                                   last_view.substr(0, last_view.size() - 1) + R"(,"server_ms":)" +
+                                                   now + "}}"));
 }
 
 void Connection::dismiss(const char* reason, std::uint16_t code) {

@@ -12,6 +12,7 @@ namespace {
 constexpr std::int64_t kMillisecond = 1000;
 constexpr std::size_t kLogLength = 200;
 constexpr std::size_t kRoomsPerTick = 50;  // that facilitators are shown
+constexpr std::size_t kTicksAwaited = 2;   // what there is, and the picture that is taken meanwhile
 
 // Whether a person has so many wrong answers that they may need help.
 bool has_many_wrong(const Json& row) {
@@ -47,8 +48,7 @@ void Views::post(Strands::Job job) { service_.strands.post(strand_, std::move(jo
 
 void Views::watch(const ConnectionPtr& connection) {
   post([this, connection] {
-    watchers_[connection->id] = {.connection = connection, .room = nullptr};
-    await_news();
+    watchers_[connection->id] = {.connection = connection, .room = nullptr, .ticks_awaited = kTicksAwaited};
   });
 }
 
@@ -60,7 +60,7 @@ void Views::select(const ConnectionPtr& connection, const std::shared_ptr<Hosted
     const auto former = std::exchange(found->second.room, room);
     if (former) --former->num_watchers;
     if (room) changed_[room->number()] = room;
-    await_news();
+    found->second.ticks_awaited = kTicksAwaited;
   });
 }
 
@@ -105,12 +105,6 @@ void Views::note_unseen(const HostedRoom& room, const std::string& what, const s
   has_news_ = has_news_ || is_new;
 }
 
-// Shows at the next tick what there is, and at the one after it the pictures that are taken meanwhile.
-void Views::await_news() {
-  has_news_ = true;
-  ticks_awaited_ = 2;
-}
-
 void Views::tick() {
   post([this] {
     if (watchers_.empty()) return;
@@ -118,13 +112,18 @@ void Views::tick() {
     for (const auto& [number, room] : changed) take_picture(room);
     if (pictures_.empty() && !changed.empty()) return;  // the first page has its rooms
 
-    // The page of many rooms is large, and something happens in one of them all the time.
-    const bool is_awaited = ticks_awaited_ > 0;
-    if (is_awaited) --ticks_awaited_;
-    if (++ticks_since_shown_ <= pictures_.size() / kRoomsPerTick && !is_awaited) return;
-    if (!std::exchange(has_news_, false)) return;
-    ticks_since_shown_ = 0;
-    show_all();
+    // The list of many rooms is large, and something happens in one of them all the time: whoever waits for something
+    // else is shown that alone.
+    const bool is_due = ++ticks_since_shown_ > pictures_.size() / kRoomsPerTick && std::exchange(has_news_, false);
+    if (is_due) ticks_since_shown_ = 0;
+    std::map<LiveService::ConnectionId, bool> with_rooms;
+    for (auto& [id, watcher] : watchers_) {
+      const bool is_awaited = watcher.ticks_awaited > 0;
+      if (!is_due && !is_awaited) continue;
+      if (is_awaited) --watcher.ticks_awaited;
+      with_rooms[id] = !std::exchange(watcher.has_rooms, true) || is_due;
+    }
+    if (!with_rooms.empty()) show(with_rooms);
   });
 }
 
@@ -149,12 +148,14 @@ void Views::take_picture(const std::shared_ptr<HostedRoom>& hosted) {
   });
 }
 
-// Has who understands what computed anew where somebody looks, or where somebody has many wrong answers.
+// Has who understands what computed anew where somebody looks, or where somebody has many wrong answers: there only when
+// there is a third more to judge by, since it takes the longer the more there is.
 void Views::keep_picture(const std::shared_ptr<HostedRoom>& hosted, Picture picture, std::size_t num_observed) {
   const auto known = audits_.find(hosted->number());
   const auto judged = known == audits_.end() ? std::size_t{0} : known->second.periods;
-  const bool is_of_interest = hosted->num_watchers > 0 || (picture.row && has_many_wrong(*picture.row));
-  if (is_of_interest && num_observed > judged) to_audit_[hosted->number()] = hosted;
+  const bool is_watched = hosted->num_watchers > 0;
+  const bool is_of_interest = is_watched || (picture.row && has_many_wrong(*picture.row));
+  if (is_of_interest && num_observed > judged + (is_watched ? 0 : judged / 3)) to_audit_[hosted->number()] = hosted;
   pictures_[hosted->number()] = std::move(picture);
   has_news_ = true;
   audit_next();
@@ -217,13 +218,19 @@ std::vector<WatchedRoom> Views::watched_rooms() const {
   return watched;
 }
 
-void Views::show_all() {
-  service_.post([this, watched = WatchedRooms{.rooms = watched_rooms()}]() mutable {
+void Views::show(const std::map<LiveService::ConnectionId, bool>& with_rooms) {
+  WatchedRooms watched;
+  if (std::ranges::any_of(with_rooms, &std::pair<const LiveService::ConnectionId, bool>::second))
+    watched.rooms = watched_rooms();
+  service_.post([this, with_rooms, watched = std::move(watched)]() mutable {
     service_.directory.fill(watched);
-    post([this, watched = std::move(watched)] {
-      for (const auto& [id, watcher] : watchers_) {
+    post([this, with_rooms, watched = std::move(watched)] {
+      for (const auto& [id, has_rooms] : with_rooms) {
+        const auto found = watchers_.find(id);
+        if (found == watchers_.end()) continue;
+        const auto& watcher = found->second;
         try {
-          watcher.connection->show(view_of(watcher, watched));
+          watcher.connection->show(view_of(watcher, watched, has_rooms));
         } catch (const std::exception&) {
           watcher.connection->dismiss("no-view", kGoingAway);
         }
@@ -232,18 +239,20 @@ void Views::show_all() {
   });
 }
 
-Json Views::view_of(const Watcher& watcher, const WatchedRooms& watched) const {
+Json Views::view_of(const Watcher& watcher, const WatchedRooms& watched, bool with_rooms) const {
   const auto role = watcher.connection->identity.role;
   const bool is_facilitator = role == Role::kFacilitator;
   Json view{{"v", 1},
             {"role", name_of(role)},
             {"server_ms", service_.now_us() / kMillisecond},
             {"study", live_study_json(*service_.study)},
-            {"rooms", Json::array()},
             {"log", Json::array()},
             {"integrity", integrity_of(watched.num_unsaved)}};
   if (is_facilitator) view["links"] = watched.links;
-  for (const auto& room : watched.rooms) view["rooms"].push_back(filled(room, is_facilitator));
+  if (with_rooms) {
+    auto& rooms = view["rooms"] = Json::array();
+    for (const auto& room : watched.rooms) rooms.push_back(filled(room, is_facilitator));
+  }
 
   const auto number = watcher.room ? watcher.room->number() : 0;
   if (const auto picture = pictures_.find(number); picture != pictures_.end()) {

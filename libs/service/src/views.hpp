@@ -77,19 +77,20 @@ class Views {
   struct Watcher {
     ConnectionPtr connection;
     std::shared_ptr<HostedRoom> room;  // null: looks at none
+    std::size_t ticks_awaited = 0;     // of those to come: waits for what was asked for
+    bool has_rooms = false;            // has been shown the list of all rooms
   };
 
   void post(Strands::Job job);
-  void await_news();
   void take_picture(const std::shared_ptr<HostedRoom>& hosted);
   void keep_picture(const std::shared_ptr<HostedRoom>& hosted, Picture picture, std::size_t num_observed);
   void audit_next();
   void judge(const std::shared_ptr<HostedRoom>& hosted, const std::shared_ptr<void>& turn);
   void keep_audit(const HostedRoom& hosted, Audit audit, const std::string& problem);
   void note_unseen(const HostedRoom& room, const std::string& what, const std::string& problem);
-  void show_all();
+  void show(const std::map<LiveService::ConnectionId, bool>& with_rooms);
   [[nodiscard]] std::vector<WatchedRoom> watched_rooms() const;
-  [[nodiscard]] Json view_of(const Watcher& watcher, const WatchedRooms& watched) const;
+  [[nodiscard]] Json view_of(const Watcher& watcher, const WatchedRooms& watched, bool with_rooms) const;
   [[nodiscard]] Json integrity_of(std::size_t num_unsaved) const;
 
   ServiceState& service_;
@@ -99,7 +100,6 @@ class Views {
   std::map<std::int64_t, std::shared_ptr<HostedRoom>> changed_;  // whose picture is old
   bool has_news_ = false;
   std::size_t ticks_since_shown_ = 0;  // news
-  std::size_t ticks_awaited_ = 0;      // of those to come: somebody waits for what they asked for
   std::map<std::int64_t, Audit> audits_;
   std::map<std::int64_t, std::shared_ptr<HostedRoom>> to_audit_;
   bool is_auditing_ = false;  // one room at a time: nobody's lesson waits for long

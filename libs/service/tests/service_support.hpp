@@ -178,7 +178,11 @@ class Page {
     if (!socket_) return;
     for (const auto& frame : socket_->take()) {
       const auto type = frame.at("t").get<std::string>();
-      if (type == "view") view_ = frame.at("view"), views_.push_back(frame.at("view"));
+      if (type == "view") {
+        const auto rooms = view_.is_object() ? view_.value("rooms", Json{}) : Json{};
+        views_.push_back(view_ = frame.at("view"));
+        if (!view_.contains("rooms") && !rooms.is_null()) view_["rooms"] = rooms;
+      }
       if (type == "bye") bye_ = frame.at("reason");
       if (type == "ack" || type == "nak") {
         const auto id = frame.at("id").get<std::string>();

@@ -43,7 +43,11 @@ export function App({ token }: { token: string }): JSX.Element {
   useEffect(() => {
     const made = new Connection(token, {
       socket: setSocket,
-      view: (view) => setReceived({ view, offset: view.server_ms - Date.now() }),
+      view: (view) =>
+        setReceived((before) => ({
+          view: { ...view, rooms: view.rooms ?? before?.view.rooms ?? [] }, // the list is not always sent again
+          offset: view.server_ms - Date.now(),
+        })),
       welcome: () => {
         const room = remembered('room');
         if (room) void made.send('room-select', { room, reason: '' }).catch(() => undefined);
