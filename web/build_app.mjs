@@ -4,8 +4,8 @@
 //
 //   node build_app.mjs --page NAME --out DIR [--modules DIR]
 //
-// NAME is a folder of src with main.tsx, style.css and, if the page needs its own, index.html. The
-// server serves the two assets as /assets/NAME/app.js and /assets/NAME/app.css.
+// NAME is a folder of src with main.tsx and style.css. The server serves the two assets as /assets/NAME/app.js and
+// /assets/NAME/app.css.
 import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
@@ -35,8 +35,7 @@ async function themeSheet() {
 
 const script = await bundle(`${source}/main.tsx`, kScript);
 const style = await bundle(`${source}/style.css`, { target: kTarget });
-const own = join(here, source, 'index.html');
-const template = readFileSync(existsSync(own) ? own : join(here, 'src/shared/app.html'), 'utf8');
+const template = readFileSync(join(here, 'src/shared/app.html'), 'utf8');
 const index = template
   .replaceAll('__PAGE__', values.page)
   .replace('__NOTICES__', () => noticesHtml(collectNotices(script.metafile, modules)));

@@ -4,7 +4,7 @@ import { useMemo } from 'preact/hooks';
 import { Patterns } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
 import { counted } from '../shared/texts';
-import { themeToggle } from '../shared/theme';
+import { Licences, ThemeToggle } from '../shared/edges';
 import type { Audit, Judged, Person } from './document';
 import { percent, PersonView } from './person';
 
@@ -28,7 +28,7 @@ export function Page({ audit }: { audit: Audit }): JSX.Element {
         <p class="kicker">
           {name}: {counted(people.length, 'person', 'people')}, judged by their answers
         </p>
-        <span ref={(place) => place?.replaceChildren(themeToggle())} />
+        <ThemeToggle />
       </header>
       <h1>Who understands what</h1>
       <main id="main" tabIndex={-1}>
@@ -46,10 +46,7 @@ export function Page({ audit }: { audit: Audit }): JSX.Element {
         <section id="notices">
           <h2>About this page</h2>
           <p>Made by {program}. It needs no network.</p>
-          <details class="licences">
-            <summary>Licences of the software inside this page</summary>
-            <div ref={(place) => place?.append(document.querySelector<HTMLTemplateElement>('#kith-notices')?.content ?? '')} />
-          </details>
+          <Licences />
         </section>
       </main>
     </>

@@ -1,9 +1,9 @@
 // The page around the tabs: header, state of the connection, dialogs.
 import type { JSX } from 'preact';
-import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { announce } from '../shared/dom';
 import type { SocketState } from '../shared/reconnecting_socket';
-import { themeToggle } from '../shared/theme';
+import { ThemeToggle } from '../shared/edges';
 import { Api } from './api';
 import { duration } from '../shared/duration';
 import { ClockOffset, useNow } from './clock';
@@ -128,7 +128,7 @@ function Shell({ view, socket, send, onRetry }: ShellProps): JSX.Element {
         <span class="top-end">
           {!isFacilitator && <span class="badge observer">Observer</span>}
           <ConnectionMark socket={socket} />
-          <ThemeButton />
+          <ThemeToggle />
         </span>
       </header>
       <Banners view={view} socket={socket} onRetry={onRetry} onData={() => go('data')} />
@@ -166,12 +166,6 @@ function ConnectionMark({ socket }: { socket: SocketState }): JSX.Element {
       {isLive ? 'Connected' : 'Not connected'}
     </span>
   );
-}
-
-function ThemeButton(): JSX.Element {
-  const place = useRef<HTMLSpanElement>(null);
-  useLayoutEffect(() => place.current?.replaceChildren(themeToggle()), []);
-  return <span ref={place} />;
 }
 
 interface BannersProps {

@@ -1,12 +1,12 @@
 // The lesson: one board after the other, then what the robot is like, and more boards for those who want them.
 import type { JSX } from 'preact';
-import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useState } from 'preact/hooks';
 import { Patterns } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
 import { Button } from '../shared/play/button';
 import { enterGoesOn } from '../shared/play/keys';
 import { counted } from '../shared/texts';
-import { themeToggle } from '../shared/theme';
+import { Licences, ThemeToggle } from '../shared/edges';
 import { CardView, Title, Whole } from './card';
 import { cardsOf, isSameAgain, kindOf, type Card } from './cards';
 import { usePrinting, Worlds, type Context, type Guess } from './context';
@@ -71,7 +71,7 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
       <Patterns surfaces={legend.surfaces} />
       <header class="masthead">
         <h1>What will the robot do?</h1>
-        <Adopted make={themeToggle} />
+        <ThemeToggle />
       </header>
       {steps.length > 1 && <Track steps={steps} at={at} reached={reached} guesses={guesses} onGo={go} />}
       <main id="main" tabIndex={-1}>
@@ -81,13 +81,6 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
       </main>
     </>
   );
-}
-
-// An element that the shared code makes.
-function Adopted({ make }: { make: () => HTMLElement }): JSX.Element {
-  const place = useRef<HTMLSpanElement>(null);
-  useLayoutEffect(() => place.current?.replaceChildren(make()), []);
-  return <span ref={place} />;
 }
 
 interface TrackProps {
@@ -189,11 +182,6 @@ function Answers({ cards, ...context }: Context & { cards: Card[] }): JSX.Elemen
 }
 
 function Notices({ lesson }: { lesson: Lesson }): JSX.Element {
-  const place = useRef<HTMLDivElement>(null);
-  useLayoutEffect(() => {
-    const notices = document.getElementById('kith-notices');
-    if (notices instanceof HTMLTemplateElement) place.current?.replaceChildren(notices.content);
-  }, []);
   return (
     <section id="notices" aria-labelledby="notices-title">
       <h2 id="notices-title">About this page</h2>
@@ -201,10 +189,7 @@ function Notices({ lesson }: { lesson: Lesson }): JSX.Element {
         Made by {lesson.program} from the domain {lesson.domain.id}
         {lesson.seed === undefined ? '' : `, seed ${lesson.seed}`}. It needs no network.
       </p>
-      <details class="licences">
-        <summary>Licences of the software inside this page</summary>
-        <div ref={place} />
-      </details>
+      <Licences />
     </section>
   );
 }

@@ -1,6 +1,7 @@
 // Enter a code to join.
 import type { JSX } from 'preact';
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
+import { Licences } from '../../shared/edges';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
 import { codeOfLink, joinedHere, rememberJoining } from '../session';
@@ -105,7 +106,7 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
           </button>
         </div>
       )}
-      <Licences />
+      <Licences summary={t('landing.licences')} />
     </>
   );
 }
@@ -132,17 +133,3 @@ function WhoAreYou({ onReturn, onAnother }: { onReturn: (token: string) => void;
 }
 
 const clockTime = (at: number): string => new Date(at).toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
-
-function Licences(): JSX.Element {
-  const place = useRef<HTMLDivElement>(null);
-  useLayoutEffect(() => {
-    const notices = document.getElementById('kith-notices');
-    if (notices instanceof HTMLTemplateElement) place.current?.replaceChildren(notices.content.cloneNode(true));
-  }, []);
-  return (
-    <details class="licences">
-      <summary>{t('landing.licences')}</summary>
-      <div ref={place} />
-    </details>
-  );
-}
