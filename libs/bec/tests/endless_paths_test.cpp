@@ -10,6 +10,7 @@
 #include "kith/bec/atlas.hpp"
 #include "kith/bec/behaviours.hpp"
 #include "kith/bec/comparison.hpp"
+#include "path_features.hpp"
 
 namespace kith {
 namespace {
@@ -22,7 +23,7 @@ void expect_counts(const Atlas& atlas, StartIndex start, const Trajectory& path)
   const auto& domain = atlas.domain();
   const auto& mdp = domain.mdp(atlas.id(start).mdp);
   if (!mdp.is_deterministic()) return;  // expectations are of more than one path
-  const auto counts = path_features(mdp, path);
+  const auto counts = testing::path_features(mdp, path);
   for (std::size_t k = 0; k < counts.size(); ++k) {
     const auto known = static_cast<double>(atlas.feature_counts(start)[k]) / static_cast<double>(domain.count_scale());
     ASSERT_NEAR(counts[k], known, 1e-6) << domain.id() << " demo " << start.value() << " feature " << k;

@@ -174,12 +174,6 @@ bool leaves_out_ties(const Atlas& atlas) {
   return false;
 }
 
-bool isolates(const Atlas& atlas, StartIndex start, const HalfSpace& constraint, Purpose purpose) {
-  auto region = atlas.prior_cone();
-  return region.clip(atlas.constraints().half_spaces(set_for(atlas, start, purpose))) &&
-         region.minimal_set() == target_facets(atlas.prior_cone(), constraint);
-}
-
 std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
   const auto target = target_facets(atlas.prior_cone(), constraint);
   Remainders regions{atlas};

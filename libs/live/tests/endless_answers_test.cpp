@@ -5,6 +5,7 @@
 
 #include "discounted_domains.hpp"
 #include "live_play.hpp"
+#include "path_features.hpp"
 
 namespace kith {
 namespace {
@@ -94,7 +95,7 @@ TEST(EndlessAnswers, CountTheCycleAsOftenAsItIsGoneRound) {
       if (mdp.is_terminal(at) || actions.size() > atlas.domain().max_steps()) continue;
       const auto judged = judged_path(atlas, start_index, actions, true);
       ASSERT_TRUE(judged.is_finished && judged.counts);
-      const auto features = path_features(mdp, judged.path);
+      const auto features = testing::path_features(mdp, judged.path);
       for (std::size_t k = 0; k < features.size(); ++k) {
         const auto scale = static_cast<double>(atlas.domain().count_scale());
         EXPECT_NEAR(static_cast<double>((*judged.counts)[k]) / scale, features[k], 1e-6);

@@ -5,7 +5,6 @@
 
 #include "checks.hpp"
 #include "kith/core/assert.hpp"
-#include "kith/core/math.hpp"
 #include "longest_path.hpp"
 
 namespace kith {
@@ -110,31 +109,6 @@ std::optional<std::size_t> first_difference(const Trajectory& a, const Trajector
     if (!has(a, t) || !has(b, t) || a.action(t) != b.action(t)) return t;
   }
   return std::nullopt;
-}
-
-std::vector<double> path_features(const Mdp& mdp, const Trajectory& path) {
-  constexpr const char* kName = "path_features";
-  require(path.states.size() == path.actions.size() + 1, kName, "there must be one state more than actions");
-  require(!path.repeats_from ||
-              (*path.repeats_from < path.actions.size() && path.states[*path.repeats_from] == path.states.back()),
-          kName, "the last action must lead back to a state before it");
-  require(!path.repeats_from || mdp.discount() < 1.0, kName, "an undiscounted path must end");
-  std::vector<double> sum(mdp.num_features(), 0.0);
-  double share = 1.0;  // discount^t, of a cycle for all rounds
-  for (std::size_t t = 0; t < path.actions.size(); ++t) {
-    if (t == path.repeats_from) share /= 1.0 - math::pow(mdp.discount(), static_cast<double>(path.actions.size() - t));
-    require(path.states[t].value() < mdp.num_states(), kName, "nothing follows a terminal state");
-    const auto choices = mdp.choices(path.states[t]);
-    const auto choice = std::ranges::find(choices, path.actions[t], &Choice::action);
-    require(choice != choices.end(), kName, "there is no such choice");
-    const auto outcomes = mdp.outcomes(*choice);
-    const auto outcome = std::ranges::find(outcomes, path.states[t + 1], &Outcome::next);
-    require(outcome != outcomes.end(), kName, "the action does not lead there");
-    const auto phi = mdp.features(*outcome);
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += share * phi[k];
-    share *= mdp.discount();
-  }
-  return sum;
 }
 
 }  // namespace kith

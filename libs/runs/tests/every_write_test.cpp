@@ -362,7 +362,8 @@ void sweep(std::span<const Strike> strikes, std::size_t first, std::size_t strid
 // Whether a run is refused, or does not pass for what its program would write again.
 bool is_refused(const fs::path& folder) {
   try {
-    return !verify_run(folder, read_run_folder(folder), item_delivery(), {}).mismatches.empty();
+    const auto reading = read_run_folder(folder);
+    return !reading.study || !verify_run(folder, reading, item_delivery(), {}).mismatches.empty();
   } catch (const Error&) {
     return true;
   }

@@ -19,13 +19,10 @@ enum class Purpose {
 /// (docs/model.md): then with other weights of the policy's class it may take another path that is as good.
 [[nodiscard]] bool leaves_out_ties(const Atlas& atlas);
 
-/// Whether a demonstration conveys exactly the constraint to those who know the prior: with it, the one-step set of the
-/// path (kTeach) or the facets of the robot's cell in the coverage set of the start (kTest) leave the same weights as
-/// the constraint does.
-[[nodiscard]] bool isolates(const Atlas& atlas, StartIndex start, const HalfSpace& constraint, Purpose purpose);
-
-/// The simplest demonstration that isolates the constraint: the least to look at (Domain::complexity), then the
-/// shortest path, then the lowest index. Nothing if there is none.
+/// The simplest demonstration that isolates the constraint, which conveys exactly that to those who know the prior:
+/// with it, the one-step set of the path (kTeach) or the facets of the robot's cell in the coverage set of the start
+/// (kTest) leave the same weights as the constraint does. The least to look at (Domain::complexity), then the shortest
+/// path, then the lowest index. Nothing if there is none.
 [[nodiscard]] std::optional<StartIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint,
                                                            Purpose purpose);
 

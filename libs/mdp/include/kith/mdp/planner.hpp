@@ -34,12 +34,6 @@ struct Trajectory {
 /// The first step at which two paths take different actions, or at which only one has ended; nothing if they never do.
 [[nodiscard]] std::optional<std::size_t> first_difference(const Trajectory& a, const Trajectory& b);
 
-/// The features that a path collects, shape [d]: sum over its steps t of discount^t phi(s_t, a_t, s_(t+1)). A cycle of
-/// L actions that begins at step k counts as many times as it is gone round, discount^k c / (1 - discount^L) with c
-/// what it collects once. Where chance has a part, what is collected if everything goes as the path says.
-/// @throws std::invalid_argument if some action cannot lead along the path, or an undiscounted path never ends.
-[[nodiscard]] std::vector<double> path_features(const Mdp& mdp, const Trajectory& path);
-
 /// The optimal values and actions of a deterministic, undiscounted, integral
 /// Mdp under integer reward weights; exact, ties included.
 ///
