@@ -281,7 +281,7 @@ describe('a lesson in a file', () => {
     assert.match(text, /weights = \{ rubble = -5.5, recharge = 3.5, step = -1.0 \}/);
     await area.fill(text.replace('discount', 'discuont'));
     await reads(page.locator('.said').first(), /^domain.toml:11:1: error\[E0107\]: unknown key 'discuont'/);
-    await tab('As it was');
+    await tab('The first robot again');
     await tab('Take the lesson');
     await page.waitForSelector('main.stage-consent');
     assert.deepEqual(trouble, []);

@@ -123,11 +123,12 @@ Json playground_json(const LiveStudy& study, const Json& asked) {
   }
   Json page{{"learn", known_brackets(atlas, all)}, {"explore", Json{}}};
   if (!can_explore(atlas.domain())) return page;
-  auto now = explored(atlas, study.sandbox);
+  const MdpIndex world{atlas.domain().num_mdps() - 1};  // everything optional is there
+  auto now = explored(atlas, atlas.index({world, atlas.domain().initial_state(world)}));
   view::Explore shown{now.shown, placeable_symbols(study), Json{}, std::nullopt};
   if (!asked.is_null()) {
     const auto map = asked.value("map", std::vector<std::string>{});
-    now = map.empty() ? explored_in(atlas, atlas.id(study.sandbox).mdp, asked.at("start"))
+    now = map.empty() ? explored_in(atlas, world, asked.at("start"))
                       : explored(study, {asked.at("start"), std::nullopt, map});
     shown.at<"last">() = now.shown;
   }

@@ -5,6 +5,8 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { App } from '../live/app';
 import { Exploring, type Asking } from '../live/parts/explore';
 import type { ParticipantView } from '../live/protocol';
+import { Patterns } from '../shared/board/glyphs';
+import { useLegend } from '../shared/play/board_pane';
 import { Brackets, type Bracket } from '../shared/play/brackets';
 import { Button } from '../shared/play/button';
 import { labelOf } from '../shared/play/ledger';
@@ -37,7 +39,7 @@ const diagnosticsOf = (error: unknown): string[] => {
 
 const kWeights = /^(\s*weights\s*=\s*\{)([^}]*)\}/m;
 
-export function weightsOf(text: string): [string, number][] {
+function weightsOf(text: string): [string, number][] {
   const pairs = kWeights.exec(text)?.[2]?.split(',') ?? [];
   return pairs.flatMap((pair): [string, number][] => {
     const [name = '', value = ''] = pair.split('=').map((part) => part.trim());
@@ -107,20 +109,20 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
         {tab === 'lesson' && lesson > 0 && <App key={lesson} />}
         <div id="said" role="status">
           {errors.length > 0 && <p>The robot cannot be like this; what is shown is from before.</p>}
-          {[...errors, ...(played?.warnings ?? []).filter((one) => !isOfStudy(one))].map((said) => (
+          {[...errors, ...(tab === 'file' ? (played?.warnings ?? []).filter((one) => !isOfStudy(one)) : [])].map((said) => (
             <pre class="said" tabIndex={0}>
               {said.replaceAll('/study/', '')}
             </pre>
           ))}
         </div>
       </section>
-      <p>
-        Nothing leaves this page, and nothing is kept: save the robot to go on with it.{' '}
-        <Button onClick={() => download(new Blob([text], { type: 'text/plain' }), kDomain)}>Save</Button>{' '}
+      <p>Nothing leaves this page, and nothing is kept: save the robot to go on with it.</p>
+      <div class="buttons">
+        <Button onClick={() => download(new Blob([text], { type: 'text/plain' }), kDomain)}>Save the robot</Button>
         <Button off={text === original} onClick={() => setText(original)}>
-          As it was
+          The first robot again
         </Button>
-      </p>
+      </div>
     </main>
   );
 }
@@ -136,10 +138,12 @@ interface RobotProps {
 function Robot({ text, original, onText, played: { explore, learn }, onAsk }: RobotProps): JSX.Element {
   const board = explore?.first.board;
   const counted = board?.domain.counted ?? [];
+  const { surfaces } = useLegend(board?.domain ?? { id: '' });
   const most = Math.ceil(2 * Math.max(1, ...weightsOf(original).map(([, weight]) => Math.abs(weight))));
   return (
     <div class="playground-parts">
       <div>
+        <Patterns surfaces={surfaces} />
         <h2>What it likes and dislikes</h2>
         {weightsOf(text).map(([name, weight]) => {
           const one = counted.find((feature) => feature.name === name);
