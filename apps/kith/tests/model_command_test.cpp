@@ -70,9 +70,9 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
   const std::string states = "icy_crossing_states.csv";
   const std::string rows = "icy_crossing_transitions.csv";
   const std::vector<Malformed> cases{
-      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:14:15: error[E0233]",
+      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:15:15: error[E0233]",
        "'states.csv' cannot be read", "it is expected at"},
-      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:14:15: error[E0232]",
+      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:15:15: error[E0232]",
        "cannot be a file of a model", "in its folder or below"},
       {states, "b1,on the ice", "a1,on the ice", "icy_crossing_states.csv:3:1: error[E0241]", "'a1' is given twice",
        "one row"},
@@ -121,7 +121,7 @@ TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
   edit("icy_crossing.toml", "step = -1 }\n\n[prior]", "step = 1 }\n\n[prior]");
   edit("icy_crossing.toml", "{ step = -1 } ]", "{ step = 1 } ]");
   const auto ran = err_of(4, {"validate", scratch_ / "icy_crossing.toml"});
-  EXPECT_THAT(ran, AllOf(HasSubstr("icy_crossing.toml:39:11: error[E0323]"),
+  EXPECT_THAT(ran, AllOf(HasSubstr("icy_crossing.toml:40:11: error[E0323]"),
                          HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
 }
 
