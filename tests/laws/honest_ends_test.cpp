@@ -320,7 +320,7 @@ void expect_printed_is_computed(const nlohmann::json& overview, const TeamMeans&
   // What the models estimate, and how many of what there is, is in the answers.
   sentences.each("compare (the [0-9]+ strategies|[a-z ]+|)(: [0-9.]+ to [0-9.]+ [a-z -]+|) \\(n = [0-9]\\)",
                  [](const std::smatch&) {});
-  sentences.each("the [0-9]+ strategies|[0-9]+ of [0-9]+ planned", [](const std::smatch&) {});
+  sentences.each("[Tt]he [0-9]+ strategies|[0-9]+ of [0-9]+ planned", [](const std::smatch&) {});
   EXPECT_FALSE(sentences.has_numbers()) << sentences.text();
 }
 
