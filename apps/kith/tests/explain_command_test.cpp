@@ -158,7 +158,7 @@ TEST(FindCommand, SaysThatNoWorldDoesItAndWritesOneThatDoes) {
   const Scratch scratch;
   const auto none = err_of(4, {"find", "item-delivery", "(1,1,0)"});
   EXPECT_THAT(none, HasSubstr("no start state of 'item-delivery' teaches exactly (1,1,0)"));
-  EXPECT_EQ(json_of({"find", "item-delivery", "(1,1,0)"})["errors"][0]["id"], "E1111");
+  EXPECT_EQ(json_of({"find", "item-delivery", "(1,1,0)"}, 4)["errors"][0]["id"], "E1111");
   ASSERT_EQ(run_kith({"find", "item-delivery", "(-1,0,2)", "-o", scratch / "world.toml"}).code, 0);
   EXPECT_THAT(out_of({"find", scratch / "world.toml", "(-1,0,2)"}), HasSubstr("World 0, start "));
   EXPECT_EQ(run_kith({"validate", scratch / "world.toml"}).code, 0);

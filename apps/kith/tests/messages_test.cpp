@@ -48,7 +48,7 @@ TEST(Messages, TakeAnUnknownStudyLikeAnUnknownDomain) {
 }
 
 TEST(Messages, HaveNullInJsonForAnUnknownPlace) {
-  const auto error = json_of({"inspect", "item-delivery", "--mdp", "64"}).at("errors").at(0);
+  const auto error = json_of({"inspect", "item-delivery", "--mdp", "64"}, 2).at("errors").at(0);
   for (const auto* key : {"file", "line", "column"}) EXPECT_TRUE(error.at(key).is_null()) << key;
 }
 

@@ -118,9 +118,11 @@ inline void expect_code(int code, const std::vector<std::string>& arguments, con
   EXPECT_EQ(ran.code, 0) << ran.err;
   return ran.out;
 }
-[[nodiscard]] inline Json json_of(std::vector<std::string> arguments) {
+[[nodiscard]] inline Json json_of(std::vector<std::string> arguments, int code = 0) {
   arguments.emplace_back("--json");
-  return Json::parse(out_of(arguments));
+  const auto ran = run_kith(arguments);
+  EXPECT_EQ(ran.code, code) << ran.err;
+  return Json::parse(ran.out);
 }
 /// What a run says that is to fail with this code.
 [[nodiscard]] inline std::string err_of(int code, const std::vector<std::string>& arguments, const RunWith& with = {}) {
