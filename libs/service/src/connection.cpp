@@ -17,9 +17,8 @@ void Connection::show(Json view) {
   auto text = view.dump();
   if (text == last_view) return;
   last_view = std::move(text);
-  socket->send(std::make_shared<const std::string>(R"({"t":"view","view":)" +
-                                                   last_view.substr(0, last_view.size() - 1) + R"(,"server_ms":)" +
-                                                   now + "}}"));
+  socket->send(std::make_shared<const std::string>(
+      R"({"t":"view","view":)" + last_view.substr(0, last_view.size() - 1) + R"(,"server_ms":)" + now + "}}"));
 }
 
 void Connection::dismiss(const char* reason, std::uint16_t code) {

@@ -134,22 +134,24 @@ void Views::take_picture(const std::shared_ptr<HostedRoom>& hosted) {
     if (room == nullptr) return;
     const auto now = service_.now_us();
     Picture picture;
-    const auto take = [&](Viewer::Role role, auto& row, auto& detail) {
-      const Viewer viewer{.role = role, .seat = 0};
-      hosted->can_show("row", [&] { row = std::make_shared<const Json>(room->row(viewer)); });
-      if (hosted->num_watchers == 0) return;
-      hosted->can_show("page", [&] { detail = std::make_shared<const Json>(room->view(viewer, now).at("room")); });
-    };
-    take(Viewer::Role::kFacilitator, picture.row, picture.detail);
-    take(Viewer::Role::kObserver, picture.observer_row, picture.observer_detail);
+    const Viewer facilitator{.role = Viewer::Role::kFacilitator, .seat = 0};
+    const Viewer observer{.role = Viewer::Role::kObserver, .seat = 0};
+    hosted->can_show("row", [&] {
+      picture.row = std::make_shared<const Json>(room->row(facilitator));
+      picture.observer_row = std::make_shared<const Json>(room->row(observer));
+    });
+    if (hosted->num_watchers > 0) {
+      hosted->can_show("page",
+                       [&] { picture.detail = std::make_shared<const Json>(room->view(observer, now).at("room")); });
+    }
     post([this, hosted, picture = std::move(picture), num_observed = hosted->num_observed()] {
       keep_picture(hosted, picture, num_observed);
     });
   });
 }
 
-// Has who understands what computed anew where somebody looks, or where somebody has many wrong answers: there only when
-// there is a third more to judge by, since it takes the longer the more there is.
+// Has who understands what computed anew where somebody looks, or where somebody has many wrong answers: there only
+// when there is a third more to judge by, since it takes the longer the more there is.
 void Views::keep_picture(const std::shared_ptr<HostedRoom>& hosted, Picture picture, std::size_t num_observed) {
   const auto known = audits_.find(hosted->number());
   const auto judged = known == audits_.end() ? std::size_t{0} : known->second.periods;
@@ -206,7 +208,7 @@ void Views::keep_audit(const HostedRoom& hosted, Audit audit, const std::string&
 std::vector<WatchedRoom> Views::watched_rooms() const {
   std::vector<WatchedRoom> watched;
   for (const auto& [number, picture] : pictures_) {
-    if (!picture.row || picture.row->is_null() || !picture.observer_row) continue;
+    if (!picture.row || !picture.observer_row) continue;
     const auto audit = audits_.find(number);
     auto& room = watched.emplace_back(WatchedRoom{.number = number,
                                                   .row = picture.row,
@@ -256,9 +258,9 @@ Json Views::view_of(const Watcher& watcher, const WatchedRooms& watched, bool wi
 
   const auto number = watcher.room ? watcher.room->number() : 0;
   if (const auto picture = pictures_.find(number); picture != pictures_.end()) {
-    const auto& detail = is_facilitator ? picture->second.detail : picture->second.observer_detail;
+    const auto& detail = picture->second.detail;
     const auto audit = audits_.find(number);
-    if (detail && !detail->is_null()) view["room"] = *detail;
+    if (detail) view["room"] = *detail;
     if (view.contains("room") && audit != audits_.end() && audit->second.people)
       view["room"]["people"] = *audit->second.people;
   }

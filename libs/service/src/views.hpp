@@ -65,9 +65,9 @@ class Views {
   void integrity(std::size_t num_unsaved, std::function<void(Json)> done);
 
  private:
-  // What is known of a room without asking it. Null: not known yet; details also if nobody looks at it.
+  // What is known of a room without asking it. Null: not known yet; the detail also if nobody looks at it.
   struct Picture {
-    std::shared_ptr<const Json> row, observer_row, detail, observer_detail;
+    std::shared_ptr<const Json> row, observer_row, detail;
   };
   // Who of a room understands what, see people_json(), after so many periods.
   struct Audit {
