@@ -12,7 +12,7 @@ const kMost = 12;
 export const isExample = (shown: Card['shown']): shown is Demonstration => 'reason' in shown;
 
 // A test that the shortest path answers tells nothing about whoever is right.
-const tells = ({ shown }: Card): boolean => isExample(shown) || shown.is_shortest_wrong;
+const tells = ({ shown }: Card): boolean => isExample(shown) || shown.is_shortest_wrong !== false; // older documents do not say
 
 // What a lesson begins with, and what is offered when that is over. Of every part the first boards tell most.
 export function cardsOf({ components, fresh }: Lesson): { first: Card[]; more: Card[] } {
