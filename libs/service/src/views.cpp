@@ -116,14 +116,13 @@ void Views::tick() {
     // else is shown that alone.
     const bool is_due = ++ticks_since_shown_ > pictures_.size() / kRoomsPerTick && std::exchange(has_news_, false);
     if (is_due) ticks_since_shown_ = 0;
-    std::map<LiveService::ConnectionId, bool> with_rooms;
+    std::vector<std::pair<Watcher, bool>> to;
     for (auto& [id, watcher] : watchers_) {
-      const bool is_awaited = watcher.ticks_awaited > 0;
-      if (!is_due && !is_awaited) continue;
-      if (is_awaited) --watcher.ticks_awaited;
-      with_rooms[id] = !std::exchange(watcher.has_rooms, true) || is_due;
+      if (!is_due && watcher.ticks_awaited == 0) continue;
+      watcher.ticks_awaited -= std::min<std::size_t>(watcher.ticks_awaited, 1);
+      to.emplace_back(watcher, !std::exchange(watcher.has_rooms, true) || is_due);
     }
-    if (!with_rooms.empty()) show(with_rooms);
+    if (!to.empty()) show(to);
   });
 }
 
@@ -220,19 +219,15 @@ std::vector<WatchedRoom> Views::watched_rooms() const {
   return watched;
 }
 
-void Views::show(const std::map<LiveService::ConnectionId, bool>& with_rooms) {
+void Views::show(const std::vector<std::pair<Watcher, bool>>& to_with_rooms) {
   WatchedRooms watched;
-  if (std::ranges::any_of(with_rooms, &std::pair<const LiveService::ConnectionId, bool>::second))
-    watched.rooms = watched_rooms();
-  service_.post([this, with_rooms, watched = std::move(watched)]() mutable {
+  if (std::ranges::any_of(to_with_rooms, &std::pair<Watcher, bool>::second)) watched.rooms = watched_rooms();
+  service_.post([this, to_with_rooms, watched = std::move(watched)]() mutable {
     service_.directory.fill(watched);
-    post([this, with_rooms, watched = std::move(watched)] {
-      for (const auto& [id, has_rooms] : with_rooms) {
-        const auto found = watchers_.find(id);
-        if (found == watchers_.end()) continue;
-        const auto& watcher = found->second;
+    post([this, to_with_rooms, watched = std::move(watched)] {
+      for (const auto& [watcher, with_rooms] : to_with_rooms) {
         try {
-          watcher.connection->show(view_of(watcher, watched, has_rooms));
+          watcher.connection->show(view_of(watcher, watched, with_rooms));
         } catch (const std::exception&) {
           watcher.connection->dismiss("no-view", kGoingAway);
         }
@@ -257,12 +252,11 @@ Json Views::view_of(const Watcher& watcher, const WatchedRooms& watched, bool wi
   }
 
   const auto number = watcher.room ? watcher.room->number() : 0;
-  if (const auto picture = pictures_.find(number); picture != pictures_.end()) {
-    const auto& detail = picture->second.detail;
+  const auto picture = pictures_.find(number);
+  if (picture != pictures_.end() && picture->second.detail) {
+    view["room"] = *picture->second.detail;
     const auto audit = audits_.find(number);
-    if (detail) view["room"] = *detail;
-    if (view.contains("room") && audit != audits_.end() && audit->second.people)
-      view["room"]["people"] = *audit->second.people;
+    if (audit != audits_.end() && audit->second.people) view["room"]["people"] = *audit->second.people;
   }
 
   for (const auto& entry : log_) {

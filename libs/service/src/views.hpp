@@ -88,7 +88,7 @@ class Views {
   void judge(const std::shared_ptr<HostedRoom>& hosted, const std::shared_ptr<void>& turn);
   void keep_audit(const HostedRoom& hosted, Audit audit, const std::string& problem);
   void note_unseen(const HostedRoom& room, const std::string& what, const std::string& problem);
-  void show(const std::map<LiveService::ConnectionId, bool>& with_rooms);
+  void show(const std::vector<std::pair<Watcher, bool>>& to_with_rooms);
   [[nodiscard]] std::vector<WatchedRoom> watched_rooms() const;
   [[nodiscard]] Json view_of(const Watcher& watcher, const WatchedRooms& watched, bool with_rooms) const;
   [[nodiscard]] Json integrity_of(std::size_t num_unsaved) const;
