@@ -239,12 +239,19 @@ function Intents({ intents }: { intents: Intent[] }): JSX.Element {
   return (
     <g>
       {intents.map(({ cell, action, kind }) => (
-        <At at={centre(cell)}>
+        <At at={kind === 'other' ? edge(cell, action) : centre(cell)}>
           <IntentGlyph action={action} kind={kind ?? 'own'} />
         </At>
       ))}
     </g>
   );
+}
+
+// Where a robot that stands on the cell does not cover an arrow.
+function edge(cell: Place, action: string): Point {
+  const { x, y } = centre(cell);
+  const [dx, dy] = kMoves[action] ?? [0, 0];
+  return { x: x + (dx * kUnit) / 2, y: y + (dy * kUnit) / 2 };
 }
 
 export function IntentGlyph({ action, kind }: { action: string; kind: 'own' | 'other' }): JSX.Element {
