@@ -57,4 +57,13 @@ void presume_knowing(TomlReader& study, StudySpec& spec, const Domain* domain, T
 /// `knowing` of a learner type as it is kept: { robot = "...", halfspaces = [...] }.
 [[nodiscard]] TomlTable knowing_table(const OlderRobot& robot, const Domain& domain);
 
+/// Reads the tables of `[learner]`; what is wrong goes to the report.
+[[nodiscard]] std::vector<LearnerType> read_learner_types(TomlReader& study, const Domain* domain,
+                                                          const StudyKinds& kinds, TomlReport& report);
+
+template <typename Target, typename Value>
+void set_if(Target& target, const std::optional<Value>& value) {
+  if (value) target = static_cast<Target>(*value);
+}
+
 }  // namespace kith
