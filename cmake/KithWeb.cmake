@@ -82,14 +82,10 @@ function(kith_add_web_apps)
       string(TOUPPER ${first} first)
       string(SUBSTRING ${page} 1 -1 rest)
       set(name ${first}${rest})
-      add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
+      # People on the pages that the program serves.
+      add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --kith $<TARGET_FILE:kith>
         --modules ${build} --chromium ${KITH_CHROMIUM})
       set_tests_properties(web.${name} PROPERTIES ${browser_of_pages} TIMEOUT 1200 LABELS web)
-      if(page STREQUAL live)  # people on the pages that the program serves
-        add_test(NAME web.LiveOfKith COMMAND ${KITH_NODE} ${source}/tests/live_test.mjs --kith $<TARGET_FILE:kith>
-          --modules ${build} --chromium ${KITH_CHROMIUM})
-        set_tests_properties(web.LiveOfKith PROPERTIES ${browser_of_pages} TIMEOUT 1200 LABELS web)
-      endif()
     endif()
   endforeach()
 endfunction()

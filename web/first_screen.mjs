@@ -8,7 +8,7 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { launch } from './tests/browser.mjs';
-import { startKith } from './tests/live/group.mjs';
+import { startKith } from './tests/kith.mjs';
 
 const { values } = parseArgs({
   options: {

@@ -13,7 +13,8 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { launch, requireFrom } from './browser.mjs';
 import { Cmi5Player } from './doors/cmi5_player.mjs';
-import { reach, until } from './live/kith_tests.mjs';
+import { until } from './kith.mjs';
+import { reach } from './live/kith_tests.mjs';
 import { Reader } from './live/reader.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));

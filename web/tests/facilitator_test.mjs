@@ -1,6 +1,6 @@
-// The facilitator page against a mock of the server: as facilitators and observers use it.
+// The facilitator page of `kith serve`, as facilitators and observers use it.
 //
-//   node tests/facilitator_test.mjs --app FOLDER [--screenshots DIR] [--modules DIR] [--chromium FILE]
+//   node tests/facilitator_test.mjs --kith PROGRAM [--screenshots DIR] [--modules DIR] [--chromium FILE]
 import { dirname, join } from 'node:path';
 import { after, before, describe } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -14,15 +14,15 @@ import { pageTests } from './facilitator/page_tests.mjs';
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
   options: {
-    app: { type: 'string' },
+    kith: { type: 'string' },
     screenshots: { type: 'string' },
     modules: { type: 'string', default: join(here, '..') },
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
 });
-if (!values.app) {
+if (!values.kith) {
   console.error(
-    'usage: node tests/facilitator_test.mjs --app FOLDER [--screenshots DIR] [--modules DIR] [--chromium FILE]',
+    'usage: node tests/facilitator_test.mjs --kith PROGRAM [--screenshots DIR] [--modules DIR] [--chromium FILE]',
   );
   process.exit(2);
 }

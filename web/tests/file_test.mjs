@@ -10,7 +10,8 @@ import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { launch, reads, requireFrom } from './browser.mjs';
-import { reach, until } from './live/kith_tests.mjs';
+import { until } from './kith.mjs';
+import { reach } from './live/kith_tests.mjs';
 import { Reader } from './live/reader.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));

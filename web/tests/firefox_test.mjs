@@ -141,7 +141,7 @@ async function drive(browser) {
   const view = await browser.view();
   const task = view.predict ?? view.check;
   const table = await browser.evaluate(`window.kithLesson.world(${JSON.stringify(task.world)})`);
-  const names = bestPath(priced(task.board, table), task.start).actions.map((action) => table.actions[action].name);
+  const names = bestPath(priced(table), task.start).actions.map((action) => table.actions[action].name);
   await until('the board', () => browser.evaluate("document.querySelector('.drive-area') !== null"));
   await browser.focus('the board', "(one) => one.classList.contains('drive-area')");
   await browser.press(...names);

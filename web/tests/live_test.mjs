@@ -1,11 +1,8 @@
-// Takes part in live sessions as people would: whole sessions, failures, and every screen.
+// Takes part in what `kith serve` teaches as people would: whole sessions, failures, discussions, and every screen.
 //
-//   node tests/live_test.mjs --app DIR|--kith PROGRAM [--only SUITE] [--screenshots DIR] [--modules DIR]
-//                            [--chromium FILE]
+//   node tests/live_test.mjs --kith PROGRAM [--only SUITE] [--screenshots DIR] [--modules DIR] [--chromium FILE]
 //
-// DIR is what `build_app.mjs --page live` has written; a mock server plays the protocol. With --kith it is the
-// demonstration of `kith serve` that people take part in. SUITE is one of those below.
-import { existsSync } from 'node:fs';
+// SUITE is one of those below.
 import { dirname, join } from 'node:path';
 import { after, before, describe } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -21,7 +18,6 @@ import { textTests } from './live/text_tests.mjs';
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
   options: {
-    app: { type: 'string', default: '' },
     kith: { type: 'string' },
     only: { type: 'string' },
     screenshots: { type: 'string' },
@@ -29,11 +25,17 @@ const { values } = parseArgs({
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
 });
-const all = { texts: textTests, session: sessionTests, failures: failureTests, screens: screenTests };
-const suites = values.kith ? { kith: kithTests, discussion: discussionTests } : all;
-if ((!values.kith && !existsSync(join(values.app, 'index.html'))) || (values.only && !Object.hasOwn(suites, values.only))) {
+const suites = {
+  texts: textTests,
+  session: sessionTests,
+  failures: failureTests,
+  kith: kithTests,
+  discussion: discussionTests,
+  screens: screenTests,
+};
+if (!values.kith || (values.only && !Object.hasOwn(suites, values.only))) {
   console.error(
-    'usage: node tests/live_test.mjs --app DIR|--kith PROGRAM [--only SUITE] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
+    'usage: node tests/live_test.mjs --kith PROGRAM [--only SUITE] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
   );
   process.exit(2);
 }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { openTab, openRoom } from './harness.mjs';
 
-export function lookTests({ withPage, violations, shoot }) {
+export function lookTests({ withPage, violations, shoot, titles }) {
   for (const dark of [false, true]) {
     const tone = dark ? 'dark' : 'light';
     const rules = dark ? ['color-contrast'] : undefined; // that the theme may break; otherwise all
@@ -18,7 +18,7 @@ export function lookTests({ withPage, violations, shoot }) {
           if (tab === 'Set-up') await page.waitForSelector('.qr img');
           await check(tab.toLowerCase());
         }
-        for (const [title, name] of [['Room A1', '3'], ['Room A2', '12'], ['Room A3', '1'], ['Room A5', 'paused']]) {
+        for (const [title, name] of [[titles.three, '3'], [titles.twelve, '12'], [titles.one, '1'], [titles.paused, 'paused']]) {
           await openRoom(page, title);
           await check(`live-${name}`);
         }
@@ -33,8 +33,11 @@ export function lookTests({ withPage, violations, shoot }) {
   }
 
   it('shows a group of twelve on a screen of 1280 x 800 without scrolling', async () => {
-    await withPage({ calm: true }, async (page) => {
-      await openRoom(page, 'Room A2');
+    await withPage({ calm: true }, async (page, wire) => {
+      // Twelve letters of types take a line of their own.
+      wire.bend = (view) => ({ ...view, rooms: view.rooms?.map(({ composition: _, ...room }) => room) });
+      wire.again();
+      await openRoom(page, titles.twelve);
       assert.equal(await page.locator('.globe').count(), 14);
       assert.equal(await page.locator('.group tbody tr').count(), 12);
       for (const part of ['.room-buttons', '.globes', '.group', '.curves', '.progress', '.lesson-now', '.runners']) {
@@ -48,8 +51,10 @@ export function lookTests({ withPage, violations, shoot }) {
   });
 
   it('shows the latest answers of a long session, with the names beside them', async () => {
-    await withPage({ calm: true, periods: [30] }, async (page) => {
-      await openRoom(page, 'Room A1');
+    await withPage({ calm: true }, async (page, wire) => {
+      const long = ({ answers, ...rest }) => ({ ...rest, answers: Array.from({ length: 30 }, (_, i) => answers.filter(({ period }) => period === 1).map((one) => ({ ...one, period: i + 1 }))).flat() });
+      wire.bend = (view) => ({ ...view, ...(view.room ? { room: long(view.room) } : {}) });
+      await openRoom(page, titles.three);
       const group = await page.locator('.group').boundingBox();
       const last = await page.locator('.group tbody tr >> nth=1 >> .answer-cell').last().boundingBox();
       assert.ok(last.x + last.width <= group.x + group.width + 1, 'the latest answers are out of sight');
@@ -67,7 +72,7 @@ export function lookTests({ withPage, violations, shoot }) {
           const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
           assert.ok(wide <= 0, `${tab} is ${wide} px too wide`);
         }
-        await openRoom(page, 'Room A2');
+        await openRoom(page, titles.twelve);
         const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
         await shoot(page, `live-${width}`);
         assert.ok(wide <= 0, `Live is ${wide} px too wide`);
@@ -77,7 +82,7 @@ export function lookTests({ withPage, violations, shoot }) {
 
   it('turns all spheres by keys, sliders and dragging', async () => {
     await withPage({ calm: true }, async (page) => {
-      await openRoom(page, 'Room A1');
+      await openRoom(page, titles.three);
       const shapes = () => page.$$eval('.globe .dots:not(.behind)', (all) => all.map((path) => path.getAttribute('d')));
       const first = await shapes();
       assert.equal(first.length, 5);
@@ -104,7 +109,7 @@ export function lookTests({ withPage, violations, shoot }) {
 
   it('draws particles where they are: behind the ball or in front', async () => {
     await withPage({ calm: true }, async (page) => {
-      await openRoom(page, 'Room A1');
+      await openRoom(page, titles.three);
       const counts = await page.$$eval('.globe', (all) =>
         all.map((globe) => [...globe.querySelectorAll('.dots')].reduce((n, path) => n + (path.getAttribute('d').match(/M/g) ?? []).length, 0)),
       );
@@ -121,7 +126,7 @@ export function lookTests({ withPage, violations, shoot }) {
 
   it('clips regions at the rim of the ball, and hides them behind it', async () => {
     await withPage({ calm: true }, async (page) => {
-      await openRoom(page, 'Room A1');
+      await openRoom(page, titles.three);
       await page.focus('.globes');
       const seen = new Set();
       const radius = Number(await page.getAttribute('.globe .ball', 'r'));
@@ -138,7 +143,7 @@ export function lookTests({ withPage, violations, shoot }) {
 
   it('explains terms and answers on hover and focus; Escape hides the explanation', async () => {
     await withPage({ calm: true }, async (page) => {
-      await openRoom(page, 'Room A1');
+      await openRoom(page, titles.three);
       await page.hover('.answer-cell.wrong >> nth=0');
       assert.match(await page.textContent('#tip'), /Period \d+, test \d+: wrong.*regret \d\.\d\d, [\d.]+ s/);
       await page.focus('.chart .term');
@@ -151,23 +156,23 @@ export function lookTests({ withPage, violations, shoot }) {
 
   it('plays the demonstration that is shown, says why, and shows what came next', async () => {
     await withPage({}, async (page) => {
-      await openRoom(page, 'Room A1');
+      await openRoom(page, titles.three);
       await page.waitForFunction(() => document.querySelector('.shown .step')?.textContent.startsWith('Step'));
-      assert.match(await page.textContent('.why-text'), /joint belief still allows rubble/);
-      assert.equal(await page.locator('.runners .board').count(), 5);
+      assert.match(await page.textContent('.why-text'), /^Why: Chosen for the joint belief/);
+      assert.equal(await page.locator('.runners .board').count(), 4);
       await page.click('.picks button:text-is("Test 1")');
       assert.match(await page.textContent('.shown-facts'), /It tests that/);
     });
     await withPage({ calm: true }, async (page) => {
-      await openRoom(page, 'Room A1');
+      await openRoom(page, titles.three);
       assert.equal(await page.locator('.shown .play').count(), 0);
       assert.match(await page.textContent('.shown .step'), /has not moved yet/);
     });
   });
 
   it('draws bars where there are not three features, and lists steps where there is no map', async () => {
-    await withPage({ calm: true }, async (page, mock) => {
-      mock.change = (detail) => {
+    await withPage({ calm: true }, async (page, wire) => {
+      const change = (detail) => {
         const states = ['home', 'hall', 'work'].map((state, i) => ({ state, action: i < 2 ? 'walk' : null }));
         const board = { domain: { id: 'walk' }, world: 1, start: states[0] };
         const shown = { board, frames: states, gain: 2, sentences: ['walking costs something'] };
@@ -178,8 +183,9 @@ export function lookTests({ withPage, violations, shoot }) {
           lesson: { ...detail.lesson, demonstrations: [shown], tests: [shown], runners_up: [{ board, gain: 1, sentences: [] }] },
         };
       };
+      wire.bend = (view) => ({ ...view, ...(view.room ? { room: change(view.room) } : {}) });
       await openTab(page, 'Rooms');
-      await page.click('.rooms button:text-is("Room A1")');
+      await page.click(`.rooms button:text-is("${titles.three}")`);
       await page.click('.deep summary');
       await page.waitForSelector('.bars li');
       assert.equal(await page.locator('.bars li').count(), 5);
@@ -192,10 +198,10 @@ export function lookTests({ withPage, violations, shoot }) {
 
   it('shows what an answer was changed to in a discussion', async () => {
     for (const dark of [false, true]) {
-      await withPage({ calm: true, dark }, async (page, mock) => {
+      await withPage({ calm: true, dark }, async (page, wire) => {
         const ends = (answer, i) => (i % 4 === 0 ? { ...answer, changed: true, right_in_the_end: i % 8 === 0 } : answer);
-        mock.change = (detail) => ({ ...detail, answers: detail.answers.map(ends) });
-        await openRoom(page, 'Room A1');
+        wire.bend = (view) => ({ ...view, ...(view.room ? { room: { ...view.room, answers: view.room.answers.map(ends) } } : {}) });
+        await openRoom(page, titles.three);
         const cells = await page.$$eval('.answer-cell [role=img]', (all) =>
           all.map((one) => [one.getAttribute('aria-label'), [...one.children].map((part) => part.textContent || part.getAttribute('class')).join(' ')]),
         );
@@ -219,13 +225,13 @@ export function lookTests({ withPage, violations, shoot }) {
       ...detail,
       people: detail.people.map((member, i) => ({ ...member, kind: kinds[i % 2][0], kinds: kinds[i % 2][1] })),
     });
-    for (const [title, people, dark] of [['Room A1', 3, false], ['Room A2', 12, true]]) {
-      await withPage({ calm: true, dark }, async (page, mock) => {
+    for (const [title, people, dark] of [[titles.three, 3, false], [titles.twelve, 12, true]]) {
+      await withPage({ calm: true, dark }, async (page, wire) => {
         await openRoom(page, title);
         const heads = () => page.$$eval('.group thead th', (all) => all.map((head) => head.textContent));
         assert.ok(!(await heads()).includes('Kind'), 'a column of a study that does not ask');
-        mock.change = ask;
-        mock.showAll();
+        wire.bend = (view) => ({ ...view, ...(view.room ? { room: ask(view.room) } : {}) });
+        wire.again();
         await page.waitForSelector('.group .kind');
         assert.ok((await heads()).includes('Kind'));
         const shown = await page.$$eval('.group tbody .kind', (cells) => cells.map((cell) => cell.textContent));
@@ -245,15 +251,15 @@ export function lookTests({ withPage, violations, shoot }) {
   });
 
   it('keeps what the reader is doing when a new view arrives', async () => {
-    await withPage({ calm: true }, async (page, mock) => {
-      await openRoom(page, 'Room A1');
+    await withPage({ calm: true }, async (page, wire) => {
+      await openRoom(page, titles.three);
       await page.click('.shown button[aria-label="Next step"]');
       await page.click('.shown button[aria-label="Next step"]');
       await page.focus('.globes');
       await page.keyboard.press('ArrowLeft');
       const path = await page.getAttribute('.globe .bec-region', 'd');
-      mock.view.rooms[0].strategy = 'common';
-      mock.showAll();
+      wire.bend = (view) => ({ ...view, rooms: view.rooms?.map((room) => ({ ...room, strategy: 'common' })) });
+      wire.again();
       await page.waitForFunction(() => document.querySelector('.room-bar').textContent.includes('common'));
       assert.match(await page.textContent('.shown .step'), /^Step 2/);
       assert.equal(await page.getAttribute('.globe .bec-region', 'd'), path);

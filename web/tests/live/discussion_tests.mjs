@@ -1,12 +1,11 @@
 // A group that discusses its predictions in the demonstration of `kith serve`: three people, two discussions.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { randomUUID } from 'node:crypto';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
-import { requireFrom } from '../browser.mjs';
-import { reach, until, withDemonstration } from './kith_tests.mjs';
+import { Client, until } from '../kith.mjs';
+import { reach, withDemonstration } from './kith_tests.mjs';
 import { openPerson, Person } from './person.mjs';
 
 const kNames = ['Ada Lovelace', 'Blaise Pascal', 'Carl Gauss'];
@@ -15,27 +14,11 @@ const kLooks = [{}, {}, { width: 320, height: 640, dark: true }];
 // those before it get more time.
 const kKeys = ['group.discussion.model="majority"', 'group.ask_name=true', 'group.time.discuss_s=6', 'group.dropout.grace_s=2'];
 
-// Carries out a command of the facilitator.
-async function direct(setting, { facilitator }, type, body) {
-  const { WebSocket } = requireFrom(setting.modules)('ws');
-  const { host, hash } = new URL(facilitator);
-  const socket = new WebSocket(`ws://${host}/ws`);
-  const id = randomUUID();
-  const say = (frame) => socket.send(JSON.stringify(frame));
-  await new Promise((done, failed) => {
-    let isSent = false;
-    socket.on('error', failed);
-    socket.on('open', () => say({ t: 'hello', v: 1, token: hash.replace('#t=', ''), tab: randomUUID() }));
-    socket.on('message', (data) => {
-      const frame = JSON.parse(String(data));
-      if (frame.t === 'view' && !isSent) {
-        isSent = true;
-        say({ t: type, id, body: { ...body, room: frame.view.rooms[0].id, reason: 'a test' } });
-      }
-      if (frame.id === id) (frame.t === 'ack' ? done : failed)(frame);
-    });
-  });
-  socket.close();
+// Gives the discussion more time.
+async function extend({ modules }, { facilitator }) {
+  const client = await Client.open(modules, facilitator);
+  await client.ask('extend', { room: client.view.rooms[0].id, seconds: 600, reason: 'a test' });
+  client.close();
 }
 
 const shownTo = ({ view }) => view.discuss.predictions;
@@ -119,7 +102,7 @@ async function talk(setting, people, running) {
   };
 
   await reachStage(people, second);
-  await direct(setting, running.server, 'extend', { seconds: 600 });
+  await extend(setting, running.server);
   for (const person of people) assert.deepEqual(shownTo(person).map(({ n }) => n).sort(), [1, 2]);
   assert.deepEqual(shownTo(first), shownTo(third));
   assert.deepEqual(withoutOwn(shownTo(first)), withoutOwn(shownTo(second)));
@@ -151,7 +134,7 @@ async function talk(setting, people, running) {
   await seesWhoChanged(setting, running.server);
 
   await reachStage([first, second, tab], first);
-  await direct(setting, running.server, 'extend', { seconds: 600 });
+  await extend(setting, running.server);
   await third.close(); // and the tab
   await decide(first, true);
   await decide(second, false);

@@ -1,13 +1,11 @@
-// The demonstration of `kith serve`, taken part in by three people from beginning to end.
+// The demonstration of `kith serve`, taken part in by three people.
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
-import { startKith } from './group.mjs';
+import { startKith, until } from '../kith.mjs';
 import { openPerson } from './person.mjs';
-
-const kForbidden = /"(weights|prior|bec|beliefs|particles|features|gain|runners_up)"/;
 
 // What the screens ask for.
 const kActs = {
@@ -28,14 +26,6 @@ const kActs = {
     await person.button('Submit').click();
   },
 };
-
-export async function until(isSo) {
-  const end = Date.now() + 120_000; // the machine may be busy; nothing here is about time
-  while (!isSo()) {
-    assert.ok(Date.now() < end, `waited in vain until ${isSo}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-}
 
 const canAct = ({ view }) => view.stage in kActs;
 
@@ -65,7 +55,7 @@ export async function reach(people, stages, isRight = () => true) {
 export async function withDemonstration(setting, body, { keys = [], looks = [] } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'kith-live-'));
   const session = join(folder, 'session');
-  const start = (port) => startKith(setting.kith, session, port, keys);
+  const start = (port) => startKith(setting.kith, session, { port, keys });
   const running = { server: await start(0), start, folder, session };
   const people = [];
   try {
@@ -73,9 +63,7 @@ export async function withDemonstration(setting, body, { keys = [], looks = [] }
     for (let i = 0; i < 3; i += 1) {
       const person = await openPerson(setting.browser, running.server.join, looks[i]);
       people.push(person);
-      await person.open();
-      await person.button('Join').click();
-      await until(() => person.view !== null);
+      await person.join();
     }
     await body(people, running);
     for (const person of people) assert.deepEqual(person.trouble, []);
@@ -88,21 +76,6 @@ export async function withDemonstration(setting, body, { keys = [], looks = [] }
 
 export function kithTests(setting) {
   describe('kith serve', () => {
-    it('teaches three people from consent to their codes, and tells them nothing too early', async () => {
-      await withDemonstration(setting, async (people) => {
-        let tasks = 0;
-        const isRight = (person) => person !== people[0] || person.view.stage !== 'predict' || ++tasks > 1; // wrong once
-        const seen = await reach(people, ['debrief'], isRight);
-        for (const stage of Object.keys(kActs)) assert.ok(seen.has(stage), stage);
-        for (const person of people) {
-          await person.at('Thank you');
-          assert.match(await person.page.textContent('.code'), /^[A-Z]+-[A-Z0-9]+$/);
-          const sent = person.frames.filter(({ t, view }) => t === 'view' && !['feedback', 'debrief'].includes(view.stage));
-          for (const frame of sent) assert.doesNotMatch(JSON.stringify(frame), kForbidden);
-        }
-      });
-    });
-
     it('is killed in mid-period, and nobody loses an answer or a path', async () => {
       await withDemonstration(setting, async (people, running) => {
         for (const person of people) person.expectLosses();

@@ -1,8 +1,7 @@
 // Somebody who takes part: a browser's page, watched, and what they do on it.
 import assert from 'node:assert/strict';
+import { kPatience, until, Wire } from '../kith.mjs';
 import { bestPath, priced } from './delivery.mjs';
-
-const kPatience = 120_000; // milliseconds: the machine may be busy; nothing here is about time
 
 // A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected. With
 // `stopped`, time passes on the page only when `pass` says so.
@@ -22,13 +21,14 @@ export async function openPerson(browser, address, look = {}) {
     await context.clock.install({ time: 0 });
     await context.clock.pauseAt(1000);
   }
-  return new Person(context, await context.newPage(), address);
+  const wire = await new Wire().between(context);
+  return new Person(context, await context.newPage(), address, wire);
 }
 
 export class Person {
-  constructor(context, page, address) {
+  constructor(context, page, address, wire) {
     const { origin } = new URL(address);
-    Object.assign(this, { context, page, address, origin, trouble: [], view: null, frames: [], expects: [] });
+    Object.assign(this, { context, page, address, origin, wire, trouble: [], view: null, frames: [], expects: [] });
     page.on('request', (request) => {
       const url = request.url();
       if (new URL(url).origin !== origin && !/^(blob|data):/.test(url)) this.trouble.push(`request: ${url}`);
@@ -56,6 +56,27 @@ export class Person {
     await this.page.goto(this.address);
     await this.page.waitForSelector('h1');
     return this;
+  }
+
+  async join() {
+    await this.open();
+    await this.page.locator('main button.primary').first().click(); // in any language
+    await until(() => this.view !== null);
+    return this;
+  }
+
+  // To the page with the first task.
+  async toPredict() {
+    await this.consent();
+    await this.check();
+    for (let left = await this.examples(); left > 0; left -= 1) await this.watch();
+    await this.atStage('predict');
+    await this.page.waitForSelector('.drive-area');
+  }
+
+  async examples() {
+    await until(() => this.view.stage === 'watch');
+    return this.view.watch.of;
   }
 
   async close() {
@@ -107,7 +128,7 @@ export class Person {
   async best() {
     const task = this.view.predict ?? this.view.check;
     const table = await this.table(task.world);
-    return bestPath(priced(task.board, table), task.start).actions.map((action) => table.actions[action].name);
+    return bestPath(priced(table), task.start).actions.map((action) => table.actions[action].name);
   }
 
   // By the browser, which knows what to do when a connection that it kept is closed.
@@ -156,15 +177,6 @@ export class Person {
   // The word at the top of the page: Saved, Saving or Reconnecting.
   async hasStatus(word) {
     await this.page.waitForFunction((text) => document.querySelector('.status')?.textContent.includes(text), word);
-  }
-
-  // Until something on the server is so.
-  async until(isSo) {
-    const end = Date.now() + kPatience;
-    while (!isSo()) {
-      assert.ok(Date.now() < end, `waited in vain until ${isSo}`);
-      await new Promise((resolve) => setTimeout(resolve, 20));
-    }
   }
 
   // Until the last sentence about the board says so.

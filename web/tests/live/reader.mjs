@@ -1,5 +1,5 @@
 // Somebody at a lesson in a file: what they see is told by the page, since there are no frames to read.
-import { until } from './kith_tests.mjs';
+import { until } from '../kith.mjs';
 import { Person } from './person.mjs';
 
 const readers = new WeakMap(); // by page

@@ -1,13 +1,13 @@
-// Views of every screen, as a server would send them: for looks, accessibility and hostile texts.
-import { framesOf, judge, makeWorld } from './delivery.mjs';
-import { Room } from './room.mjs';
+// Views of every screen: what a real server shows three people who answer in different ways, and what it seldom shows,
+// made from that.
+import { Client, kQuestions, play } from '../kith.mjs';
+import { bestPath, priced } from './delivery.mjs';
 
-export const kQuestions = [
-  { id: 'clear', kind: 'likert', text: 'How clear was the lesson?', low: 'not at all', high: 'very', required: true },
-  { id: 'pace', kind: 'likert', text: 'How was the pace?', options: ['too slow', 'right', 'too fast'], required: false },
-  { id: 'robots', kind: 'choice', text: 'Have you worked with robots before?', options: ['never', 'sometimes', 'often'], required: true },
-  { id: 'free', kind: 'text', text: 'What was hard to understand?', required: false },
-];
+export const kScreens = {
+  size: 3,
+  keys: ['stop.max_periods=5'],
+  group: `ask_name = true\ncompletion = { redirect = "https://example.org/done" }\nscreening = { tests = 1 }${kQuestions}`,
+};
 
 // Texts that would run or break out if they were ever taken for markup.
 export const kHostile = [
@@ -48,6 +48,26 @@ function largeBoard(domain, columns = 20, rows = 12) {
   const start = { robot: [10, 7], items: [{ name: 'parcel', cell: [18, 2], carried: false }], stations: [[16, 4]] };
   const { id, legend, surfaces } = domain;
   return { domain: { id, legend, surfaces, width: columns, height: rows }, world: 1, map, start };
+}
+
+// The robot can do nothing but walk.
+function walks({ map, start: { robot, items, stations } }) {
+  const kMoves = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
+  const cells = map.flatMap((line, y) => [...line].flatMap((symbol, x) => (symbol === '#' ? [] : [[x + 1, y + 1]])));
+  const number = new Map([robot, ...cells.filter((cell) => String(cell) !== String(robot))].map((cell, i) => [String(cell), i]));
+  const places = [...number.keys()].map((cell) => cell.split(',').map(Number));
+  return {
+    key: 'walks',
+    actions: Object.entries(kMoves).map(([name, [dx, dy]]) => ({ name, label: name, dx, dy })),
+    items: [items[0].name],
+    stations,
+    frames: places.map((cell) => [...cell, [[...items[0].cell, 0]], stations.map((_, i) => i)]),
+    next: places.map(([x, y]) => Object.values(kMoves).map(([dx, dy]) => number.get(String([x + dx, y + dy])) ?? -1)),
+    end: places.map(() => false),
+    chance: false,
+    may_repeat: false,
+    max_actions: 60,
+  };
 }
 
 // The robot can only go right, and has fallen into a hole then.
@@ -109,60 +129,88 @@ function handlingWorld({ start: { robot: [column, row], items } }, mayRepeat) {
   };
 }
 
-// {name: view}; `now` is the server's time.
-export function makeViews(lesson, now = Date.now()) {
-  const room = new Room(lesson, { size: 3, screening: 1, parts: 3, questions: kQuestions, askName: true, redirect: 'https://example.org/done' });
-  const at = (stage, rest = {}) => {
-    Object.assign(room.seats[0], { stage, index: 0, since: now - 65_000, draft: [], answers: [], ...rest });
-    return { ...structuredClone(room.view(1)), server_ms: now };
+// What three people see by the name of a screen. At first one of them ends paths as soon as can be, another after a step.
+async function record(modules, server) {
+  const people = [];
+  for (let i = 0; i < 3; i += 1) people.push(await Client.join(modules, server));
+  const chosen = [shortestFinish, (world, start) => bestPath(world, start).actions.slice(0, 1), undefined];
+  await play(people, (i) => (people[i].view.progress?.round === 1 ? chosen[i] : undefined));
+  const [first, second, third] = people.map(({ views }) => views);
+  const at = (views, stage, fits = () => true) => {
+    const found = views.find((view) => view.stage === stage && fits(view));
+    if (!found) throw new Error(`nobody has seen ${stage}`);
+    return found;
   };
-  const { tests } = room.parts[0];
-  const [{ world, best }] = tests;
-  const names = world.table.actions.map(({ name }) => name);
-  const wrong = ['right', 'down', 'pickup', 'left', 'left', 'left', 'dropoff'];
-  const answerOf = (actions) => [{ actions, ...judge(world, 0, actions) }];
-  const wrongPath = shortestFinish(world);
+  const isWorse = ({ feedback: { tests } }) => tests.every(({ right, unfinished, differs_at }) => !right && !unfinished && differs_at !== null);
+  const wrong = at(first, 'feedback', isWorse);
+  const predict = first.slice(0, first.indexOf(wrong)).findLast(({ stage, predict: task }) => stage === 'predict' && task.index === 0);
+  const table = await people[0].world(predict.predict.world);
+  people.forEach((person) => person.close());
+  return {
+    table,
+    wrong,
+    right: at(third, 'feedback'),
+    short: at(second, 'feedback'),
+    predict,
+    station: [...first, ...second].find(({ watch }) => watch?.board.start.stations.length > 0 && watch.frames.at(-1).stations.length === 0),
+    at: (stage, what) => at(first, stage, (view) => !what || view.wait?.for === what),
+  };
+}
+
+// {views, tables}: {name: view}, and {key: table of moves} of worlds that the server does not know.
+export async function makeViews(modules, server) {
+  const seen = await record(modules, server);
+  const now = Date.now();
+  const { at, predict, table } = seen;
+  const { study, me, group, lang } = predict;
+  const page = (stage, rest) => ({ stage, lang, study, me, group, notices: [], server_ms: now, ...rest });
+  const end = (reason, text, code) => page(reason, { end: { reason, text, code } });
+  const waiting = (what) => ({ ...at('wait'), wait: { ...at('wait').wait, for: what } });
+  const none = structuredClone(seen.wrong);
+  none.feedback.tests = none.feedback.tests.map(({ mine, differs_at, cost, ...rest }) => ({ ...rest, mine: null, differs_at: null }));
   const notices = [{ text: 'We continue in two minutes. Please stay on this page.', at_ms: now - 5000 }];
-  room.learned = false;
+  const tables = {};
   const views = {
     consent: at('consent'),
     check: at('check'),
     screening: at('screening'),
-    lobby: at('lobby', { present: true }),
-    'lobby-leave': at('lobby'),
+    lobby: { ...at('lobby'), server_ms: now, lobby: { present: 2, size: 3, since_ms: now - 65_000, leave_after_ms: now + 235_000 } },
+    'lobby-leave': { ...at('lobby'), server_ms: now, lobby: { present: 1, size: 3, since_ms: now - 65_000, leave_after_ms: now - 1000 } },
     watch: at('watch'),
-    predict: at('predict'),
-    'predict-draft': at('predict', { draft: best.actions.slice(0, 4) }),
-    wait: at('wait', { waitsFor: 'answers' }),
-    'wait-teacher': at('wait', { waitsFor: 'teacher' }),
-    'wait-joining': at('wait', { waitsFor: 'joining' }),
-    'wait-rejoining': at('wait', { waitsFor: 'rejoining' }),
-    'feedback-wrong': at('feedback', { answers: answerOf(wrongPath) }),
-    'feedback-short': at('feedback', { answers: answerOf([names.indexOf(wrong[0])].filter((a) => world.table.next[0][a] >= 0)) }),
-    'feedback-right': at('feedback', { answers: answerOf(best.actions) }),
-    'feedback-none': at('feedback'),
+    'watch-station': seen.station,
+    predict,
+    'predict-draft': { ...predict, predict: { ...predict.predict, draft: bestPath(priced(table), predict.predict.start).actions.slice(0, 4) } },
+    wait: at('wait', 'answers'),
+    'wait-watching': at('wait', 'others-watching'),
+    'wait-teacher': waiting('teacher'),
+    'wait-joining': waiting('joining'),
+    'wait-rejoining': waiting('rejoining'),
+    'feedback-wrong': seen.wrong,
+    'feedback-short': seen.short,
+    'feedback-right': seen.right,
+    'feedback-none': none,
     questions: at('questions'),
-    debrief: at('debrief', { right: 3, tests: 4 }),
-    ended: { ...at('ended'), end: { reason: 'left', text: 'The session of your group ended early', code: 'MOCK-ENDED' } },
-    declined: at('declined'),
-    full: { ...at('full'), end: { reason: 'full', text: '', code: 'MOCK-FULL' } },
-    replaced: { ...at('replaced'), end: { reason: 'replaced', text: '', code: 'MOCK-AWAY' } },
-    notice: { ...at('predict'), notices },
-    pause: { ...at('predict'), pause: { why: 'someone-away', since_ms: now - 20_000, until_ms: now + 70_000, missing: 1 } },
+    debrief: { ...at('debrief'), debrief: { ...at('debrief').debrief, not_reached: ['a step costs more than nothing'] } },
+    ended: end('ended', 'The session of your group ended early', 'KITH-ENDED'),
+    declined: end('declined', ''),
+    full: end('full', '', 'KITH-FULL'),
+    replaced: end('replaced', '', 'KITH-AWAY'),
+    notice: { ...predict, notices },
+    pause: { ...predict, pause: { why: 'someone-away', since_ms: now - 20_000, until_ms: now + 70_000, missing: 1 } },
     'pause-organiser': { ...at('watch'), pause: { why: 'facilitator', since_ms: now - 20_000, missing: 0 } },
     unknown: { ...at('watch'), stage: 'something-new' },
   };
-  views['lobby-leave'].lobby.leave_after_ms = now - 1000;
   views['predict-limit'] = structuredClone(views.predict);
   views['predict-limit'].limit_ms = now + 25_000;
-  const large = largeBoard(lesson.domain);
+  const { domain } = predict.predict.board;
+  const large = largeBoard(domain);
   views.exam = { ...views.predict, stage: 'exam', progress: undefined, predict: { ...views.predict.predict, of: 12, draft: [] } };
-  views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
-  room.worlds.set('hole', { table: holeWorld(large) });
-  room.worlds.set('large', makeWorld(large.domain, large, 'large'));
-  const huge = largeBoard(lesson.domain, 60, 40);
-  views['predict-huge'] = { ...views.predict, predict: { ...views.predict.predict, board: huge, world: 'huge' } };
-  room.worlds.set('huge', makeWorld(huge.domain, huge, 'huge'));
+  views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large', start: 0, draft: [] } };
+  tables.hole = holeWorld(large);
+  tables.large = walks(large);
+  const huge = largeBoard(domain, 60, 40);
+  views['predict-huge'] = { ...views.predict, predict: { ...views.predict.predict, board: huge, world: 'huge', start: 0, draft: [] } };
+  tables.huge = walks(huge);
   const { frames: straight } = views.watch.watch;
   const [from] = straight;
   const slip = [{ ...from, action: from.action === 'left' ? 'right' : 'left' }, { ...straight[1], action: null }];
@@ -170,21 +218,19 @@ export function makeViews(lesson, now = Date.now()) {
   views['watch-runs'] = { ...views.watch, watch: { ...views.watch.watch, runs } };
   views['feedback-chance'] = structuredClone(views['feedback-wrong']);
   const [slipped] = views['feedback-chance'].feedback.tests;
-  const slippery = makeWorld(slipped.board.domain, slipped.board, 'slippery');
-  const { table } = slippery;
   const own = table.actions.findIndex(({ name }) => name === slipped.robot[slipped.differs_at].action);
-  const counts = (slipped.board.domain.counted ?? []).map(() => 0);
-  table.outcomes = table.next.map((row, s) =>
+  const counts = (domain.counted ?? []).map(() => 0);
+  const outcomes = table.next.map((row, s) =>
     row.map((to, action) => to < 0 ? null : [[to, 2 / 3, counts], [s, 1 / 3, counts.map((_, k) => Number(k === 0 && action !== own))]]),
   );
-  slipped.chance = { world: 'slippery', state: 0, spared: [0] };
-  room.worlds.set('slippery', slippery);
+  tables.slippery = { ...table, key: 'slippery', outcomes };
+  slipped.chance = { world: 'slippery', state: predict.predict.start, spared: [0] };
   const { board: small } = views.predict.predict;
-  room.worlds.set('handling', { table: handlingWorld(small, false) });
-  room.worlds.set('endless', { table: handlingWorld(small, true) });
-  views['predict-handling'] = { ...views.predict, predict: { ...views.predict.predict, world: 'handling', draft: [] } };
-  views['predict-full'] = { ...views.predict, predict: { ...views.predict.predict, world: 'handling', draft: [1, 0, 1, 0, 1] } };
-  views['predict-endless'] = { ...views.predict, predict: { ...views.predict.predict, world: 'endless', draft: [1, 0] } };
+  tables.handling = handlingWorld(small, false);
+  tables.endless = handlingWorld(small, true);
+  views['predict-handling'] = { ...views.predict, predict: { ...views.predict.predict, world: 'handling', start: 0, draft: [] } };
+  views['predict-full'] = { ...views.predict, predict: { ...views.predict.predict, world: 'handling', start: 0, draft: [1, 0, 1, 0, 1] } };
+  views['predict-endless'] = { ...views.predict, predict: { ...views.predict.predict, world: 'endless', start: 0, draft: [1, 0] } };
   views['watch-endless'] = { ...views.watch, watch: { index: 0, of: 1, board: views.watch.watch.board, ...endless(views.watch.watch) } };
   const { frames: endlessFrames, ...repeats } = endless(views.watch.watch);
   views['feedback-endless'] = structuredClone(views['feedback-short']);
@@ -214,13 +260,13 @@ export function makeViews(lesson, now = Date.now()) {
   views['wait-discussion'].wait.for = 'discussion';
   views['feedback-others'] = structuredClone(views['feedback-right']);
   Object.assign(views['feedback-others'].feedback, { all_right: true, learned: false, others_unsure: true });
-  views.patchwork = { ...views.watch, watch: { ...views.watch.watch, board: patchwork(lesson.domain), frames: [{ robot: [1, 1], items: [], stations: [] }] } };
-  room.worlds.set('mapless', { table: kMaplessWorld });
+  views.patchwork = { ...views.watch, watch: { ...views.watch.watch, board: patchwork(domain), frames: [{ robot: [1, 1], items: [], stations: [] }] } };
+  tables.mapless = kMaplessWorld;
   const frame = (state, action) => ({ state, action });
   const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];
   const plain = [frame('far from the dock', 'drive'), frame('at the dock', 'dock'), frame('docked', null)];
   views['mapless-watch'] = { ...views.watch, watch: { index: 0, of: 1, board: mapless(0), frames: way } };
-  views['mapless-predict'] = { ...views.predict, predict: { ...views.predict.predict, board: mapless(0), world: 'mapless', draft: [0] } };
+  views['mapless-predict'] = { ...views.predict, predict: { ...views.predict.predict, board: mapless(0), world: 'mapless', start: 0, draft: [0] } };
   views['mapless-feedback'] = {
     ...views['feedback-wrong'],
     feedback: {
@@ -230,7 +276,7 @@ export function makeViews(lesson, now = Date.now()) {
       others_unsure: false,
     },
   };
-  return { views, room };
+  return { views, tables };
 }
 
 // Of a path: its first move, and then there and back for ever.
@@ -239,9 +285,9 @@ function endless({ frames: [a, b, c] }) {
   return { frames: [a, b, { ...c, action: back }, { ...b, action: null }], repeats_from: 1, repeats_text: 'it never delivers the parcel' };
 }
 
-// A finished path that is not the best: the fewest steps, whatever they cost.
-function shortestFinish({ table }) {
-  const before = new Map([[0, null]]);
+// The fewest steps to an end, whatever they cost.
+function shortestFinish({ table }, start) {
+  const before = new Map([[start, null]]);
   for (const [state] of before) {
     if (table.end[state]) {
       const actions = [];
@@ -264,4 +310,3 @@ export function hostileView(view, text) {
   return taint(view, '');
 }
 
-export const framesOfPath = (world, actions) => framesOf(world, judge(world, 0, actions).states, actions);
