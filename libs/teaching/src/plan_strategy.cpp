@@ -155,7 +155,8 @@ class Plan : public Strategy {
   bool knows_truth_;
 };
 
-TeamBeliefNeeds plan_needs(const ParameterValues&) { return {.members = true, .rules = {}, .bank = true}; }
+// The bank has beliefs of its own.
+TeamBeliefNeeds plan_needs(const ParameterValues&) { return {.members = false, .rules = {}, .bank = true}; }
 
 template <bool kKnowsTruth>
 std::unique_ptr<Strategy> make_plan(const ParameterValues& parameters) {
