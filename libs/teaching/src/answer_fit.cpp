@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kAgainstBelief = 0.1;  // for a path that is best for nobody, if it contradicts what one believes
 
-bool holds(const std::vector<std::size_t>& half_spaces, const std::vector<std::vector<char>>& inside,
-           std::size_t point) {
-  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](std::size_t h) { return inside[h][point] != 0; });
-}
-
 // Whether nobody who knows the prior satisfies one of them.
 bool is_beyond_prior(const Atlas& atlas, std::span<const HalfSpace> half_spaces) {
   return std::any_of(half_spaces.begin(), half_spaces.end(),
@@ -107,6 +102,7 @@ std::vector<std::size_t> AnswerFit::numbers_of(std::span<const HalfSpace> half_s
   return numbers;
 }
 
+// Which points lie in each of half_spaces_.
 AnswerFit::Inside AnswerFit::locate(const ParticleBelief& belief) const {
   Inside inside;
   std::vector<double> margins(belief.size());
@@ -123,11 +119,26 @@ AnswerFit::Inside AnswerFit::locate(const ParticleBelief& belief) const {
   return inside;
 }
 
-// Of the answer to a test that is not told by policy cells.
-double AnswerFit::factor(const OneTest& test, const Inside& inside, std::size_t point) {
-  const bool fits = holds(test.answered_by, inside, point);
-  if (test.by_nobody) return slip() * test.chance * (fits ? 1.0 : kAgainstBelief);
-  return slip() * test.chance + (fits ? 1.0 - slip() : 0.0);
+// What the points of a belief say of the tests that are not told by policy cells.
+std::vector<AnswerFit::PointFit> AnswerFit::rate(const ParticleBelief& belief) const {
+  const auto inside = locate(belief);
+  const auto within_all = [&](const std::vector<std::size_t>& half_spaces) {
+    std::vector<char> all(belief.size(), 1);
+    for (const auto h : half_spaces) {
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] &= inside[h][i];
+    }
+    return all;
+  };
+  std::vector<PointFit> fits;
+  for (const auto& test : tests_) {
+    if (test.by_cell) continue;
+    const double by_slip = slip() * test.chance;
+    fits.push_back({.fits = within_all(test.answered_by),
+                    .if_fits = by_slip + (test.by_nobody ? 0.0 : 1.0 - slip()),
+                    .else_factor = test.by_nobody ? by_slip * kAgainstBelief : by_slip});
+    if (tables_ == nullptr) fits.back().is_right = within_all(test.examined);
+  }
+  return fits;
 }
 
 // What becomes of the number of right answers by slips, taking the tests for equally easy to guess.
@@ -169,8 +180,7 @@ AnswerFit::Rating AnswerFit::of(std::span<const double> cell_masses) const {
 AnswerFit::Rating AnswerFit::of(const ParticleBelief& belief, PointCells& cells) const {
   const auto masses = belief.weights();
   const bool tabulated = tables_ != nullptr;
-  const bool by_points = std::any_of(tests_.begin(), tests_.end(), [](const auto& test) { return !test.by_cell; });
-  const auto inside = by_points ? locate(belief) : Inside{};
+  const auto fits = rate(belief);
   const auto cell_of = tabulated ? cells.of(*atlas_, belief) : std::span<const std::uint32_t>{};
   std::vector<double> right(tests_.size() + 1, 0.0);
   double likelihood = 0.0, any = 0.0;
@@ -179,11 +189,9 @@ AnswerFit::Rating AnswerFit::of(const ParticleBelief& belief, PointCells& cells)
     double fit = tabulated ? factor_of_cell_[cell_of[i]] : 1.0;
     if (fit < 0.0) continue;
     std::size_t num_right = tabulated ? num_right_of_cell_[cell_of[i]] : 0;
-    if (by_points) {
-      for (const auto& test : tests_) {
-        if (!test.by_cell) fit *= factor(test, inside, i);
-        if (!tabulated) num_right += holds(test.examined, inside, i) ? 1u : 0u;
-      }
+    for (const auto& one : fits) {
+      fit *= one.fits[i] != 0 ? one.if_fits : one.else_factor;
+      if (!tabulated) num_right += one.is_right[i] != 0 ? 1u : 0u;
     }
     any += masses[i];
     likelihood += masses[i] * fit;

@@ -98,7 +98,12 @@ class AnswerFit {
   [[nodiscard]] std::vector<std::size_t> numbers_of(std::span<const HalfSpace> half_spaces);
   void read_cells(const Test& asked, const Answer& answer, OneTest& test);
   [[nodiscard]] Inside locate(const ParticleBelief& belief) const;
-  [[nodiscard]] static double factor(const OneTest& test, const Inside& inside, std::size_t point);
+  // Of the answer to a test, by whether a point fits it.
+  struct PointFit {
+    std::vector<char> fits, is_right{};  // per point; whether it answers right only where behaviours are not tabulated
+    double if_fits, else_factor;
+  };
+  [[nodiscard]] std::vector<PointFit> rate(const ParticleBelief& belief) const;
   [[nodiscard]] std::vector<double> with_slips(const std::vector<double>& right) const;
 
   const Atlas* atlas_;
