@@ -61,7 +61,7 @@ export async function withDemonstration(setting, body, { keys = [], looks = [] }
   try {
     assert.equal(running.server.seats.length, 3);
     for (let i = 0; i < 3; i += 1) {
-      const person = await openPerson(setting.browser, running.server.join, looks[i]);
+      const person = await openPerson(setting.browser, running.server.join, { isDirect: true, ...looks[i] });
       people.push(person);
       await person.join();
     }

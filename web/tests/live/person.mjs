@@ -21,7 +21,7 @@ export async function openPerson(browser, address, look = {}) {
     await context.clock.install({ time: 0 });
     await context.clock.pauseAt(1000);
   }
-  const wire = await new Wire().between(context);
+  const wire = look.isDirect ? null : await new Wire().between(context);
   return new Person(context, await context.newPage(), address, wire);
 }
 
