@@ -7,7 +7,7 @@ import { PresenceMark, whereabouts } from './live/group_table';
 import type { FacilitatorView, RoomRow, RoomStage, SeatRow } from './protocol';
 import { Explained } from './tip';
 import { counted } from '../shared/texts';
-import { attention, endText, kStages, roomTitle, seatTitle } from './words';
+import { attention, endText, groupText, kStages, roomTitle, seatTitle } from './words';
 
 type Filter = 'all' | 'attention' | RoomStage;
 
@@ -115,7 +115,7 @@ function Row({ room, now, onOpen }: RowProps): JSX.Element {
       </td>
       <td>
         {room.strategy}
-        {room.composition && <span class="hint"> {room.composition}</span>}
+        {room.composition && <span class="hint"> {groupText(room.composition)}</span>}
       </td>
       <td>
         <ul class="seat-marks">

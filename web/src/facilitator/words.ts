@@ -161,6 +161,13 @@ export const statusText = (seat: SeatRow): string => kStatuses[statusOf(seat)] ?
 // Whether nothing more is expected of them.
 export const isOver = (seat: SeatRow): boolean => statusOf(seat) in kStatuses;
 
+// "NNP"; "2 N, 10 P" of more people than one takes in.
+export function groupText(composition: string): string {
+  const kMostLetters = 6;
+  if (composition.length <= kMostLetters) return composition;
+  return [...new Set(composition)].map((letter) => `${composition.split(letter).length - 1} ${letter}`).join(', ');
+}
+
 // What of a room needs a person's attention, or nothing.
 export function attention(room: RoomRow): string | null {
   if (room.stage === 'ended') return null;

@@ -8,7 +8,7 @@ import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
 import type { FacilitatorView, RoomDetail, RoomRow } from '../protocol';
 import { Explained } from '../tip';
-import { attention, endText, kStages, roomTitle } from '../words';
+import { attention, endText, groupText, kStages, roomTitle } from '../words';
 import { RoomPicture } from './picture';
 
 interface RoomProps {
@@ -59,7 +59,7 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomProps): JSX.Elemen
       </span>
       {room.composition && (
         <span class="fact">
-          <Explained term="composition">Group</Explained> <b>{room.composition}</b>
+          <Explained term="composition">Group</Explained> <b>{groupText(room.composition)}</b>
         </span>
       )}
       {period > 0 && (
