@@ -413,7 +413,7 @@ describe('a lesson', () => {
       const shown = await open(page);
       assert.equal(await shown.locator('.runs').count(), 0, 'run before the reader has decided');
       await shown.getByRole('button', { name: 'Watch without a guess' }).click();
-      await reads(shown, /These are 2 of the robot's runs.*Run 1 of 2.*the most common path in 1\./s);
+      await reads(shown, /2 of its runs.*Run 1 of 2.*the most common path in 1\./s);
       await shown.locator('.ends').getByRole('button').nth(1).click();
       await reads(shown, /Run 2 of 2/);
       await goOn(page).click();

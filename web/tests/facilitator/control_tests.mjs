@@ -127,6 +127,7 @@ export function controlTests({ withPage, shoot, titles, room }) {
 
   it('makes rooms with people and simulated learners, and shows their links with QR codes', async () => {
     await withPage({}, async (page, wire) => {
+      await until(() => wire.last?.rooms);
       const known = new Set(wire.last.rooms.map(({ id }) => id));
       wire.bend = (view) => ({ ...view, rooms: view.rooms?.filter(({ id }) => !known.has(id)) });
       wire.again();

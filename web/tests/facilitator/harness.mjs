@@ -28,7 +28,7 @@ export const received = (wire, type) => wire.of(type).map(({ body }) => body);
 const kStudy = {
   size: 3,
   group: 'ask_name = true',
-  keys: ['design.strategies=["joint", "common", "individual-low"]', 'stop.max_periods=40'],
+  keys: ['design.strategies=["joint", "common", "individual-low"]', 'stop.max_periods=40', 'group.time.predict_s=3600'],
 };
 const kNames = ['Ada', 'Ben'];
 
