@@ -183,8 +183,8 @@ weights = { mud = -3, step = -1 }
             robot = kith.Domain(str(pathlib.Path(folder, "mixed.toml")))
         self.assertEqual(len(set(robot.starts)), 4)
         called = [robot.worlds[0].state_names[number] for _, number in robot.starts]
-        self.assertEqual(sorted(called), ["0", "01", "1", "door"])
-        self.assertEqual(called[robot.starts.index((0, 1))], "1")
+        self.assertEqual(sorted(called), ["door", "state 0", "state 01", "state 1"])
+        self.assertEqual(called[robot.starts.index((0, 1))], "state 1")
 
     def test_what_a_file_takes_the_module_takes(self):
         env = LakeEnv()
