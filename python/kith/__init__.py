@@ -30,7 +30,7 @@ from ._core import program as _program
 if _TYPE_CHECKING:
     from ._env import TeachingEnv as TeachingEnv
 
-_copyreg.pickle(Cone, lambda cone: (Cone, (cone.facets, cone.dimension)))  # type: ignore[arg-type]
+_copyreg.pickle(Cone, lambda cone: (Cone, (cone.facets, cone.dimension)))
 
 __version__ = _program().split()[0]
 

@@ -10,7 +10,7 @@ T = TypeVar("T", bound="Journaled")
 class _Other(NamedTuple):
     """In the place of an argument: a thing of the same journal."""
 
-    index: int
+    place: int
 
 
 class Journal:
@@ -28,7 +28,7 @@ class Journal:
         other.joined, other.shift = self, len(self.made)
         self.made += other.made
         for index, method, arguments in other.done:
-            moved = tuple(_Other(one.index + other.shift) if isinstance(one, _Other) else one for one in arguments)
+            moved = tuple(_Other(one.place + other.shift) if isinstance(one, _Other) else one for one in arguments)
             self.done.append((index + other.shift, method, moved))
         other.made, other.done = [], []
 
@@ -99,7 +99,7 @@ def _replayed(made: list[tuple[type, tuple[Any, ...], dict[str, Any]]],
         journal.things.append(thing)
     journal.made = made
     for index, method, told in done:
-        journal.things[index]._do(method, *(journal.things[one.index] if isinstance(one, _Other) else one for one in told))
+        journal.things[index]._do(method, *(journal.things[one.place] if isinstance(one, _Other) else one for one in told))
     return journal
 
 

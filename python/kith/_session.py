@@ -25,7 +25,7 @@ class People(Journaled):
     def __init__(self, domain: Domain, group: str = "NNP", seed: int = 1, study: str = "paper", **settings: Any) -> None:
         self._begin(domain, group, seed, study, **settings)
         self.domain = domain
-        self._native = _core.People(domain._native, group, seed, study, "", list(overrides(settings)))
+        self._native: _core.People = _core.People(domain._native, group, seed, study, "", list(overrides(settings)))
 
     def __len__(self) -> int:
         return len(self._native)
@@ -75,8 +75,8 @@ class Session(Journaled):
                  study: str = "paper", **settings: Any) -> None:
         self._begin(domain, group, members=members, strategy=strategy, seed=seed, study=study, **settings)
         self.domain = domain
-        self._native = _core.Session(domain._native, group, members, strategy_name(strategy), seed, study, "",
-                                     list(overrides(settings)))
+        self._native: _core.Session = _core.Session(domain._native, group, members, strategy_name(strategy), seed,
+                                                    study, "", list(overrides(settings)))
 
     def copy(self) -> Session:
         """A session in the same state that goes on independently."""

@@ -20,9 +20,9 @@ import pathlib
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
-if __package__:
+if TYPE_CHECKING or __package__:
     from ._settings import toml_key, toml_value
 else:  # run as a file
     from _settings import toml_key, toml_value
@@ -347,7 +347,7 @@ class _Gym:
         value = self.document.get(key, [])
         for i, s in enumerate(value if isinstance(value, (list, tuple)) else [value]):
             if not _is_number(s) or s != int(s) or not 0 <= s < self.num_states:
-                raise self.wrong((key, i) if isinstance(value, (list, tuple)) else (key,), "there is no such state",
+                raise self.wrong((key, *([i] if isinstance(value, (list, tuple)) else [])), "there is no such state",
                                  f"states are numbered 0 to {self.num_states - 1}")
             setattr(self.state_of(int(s)), "start" if key == "starts" else "initial", True)
 
@@ -400,7 +400,7 @@ class _Line(NamedTuple):
         starts = [m.start() for m in re.finditer(r"\S+", self.text)]
         return Wrong(self.file.place(self.at + starts[min(word, len(starts) - 1)]), message, help)
 
-    def index(self, word: int, expected: str, count: int = 2**32 - 1) -> int:
+    def whole(self, word: int, expected: str, count: int = 2**32 - 1) -> int:
         if word >= len(self.words) or not re.fullmatch("[0-9]+", self.words[word]):
             raise self.wrong(word, f"expected {expected}")
         number = int(self.words[word])
@@ -474,7 +474,7 @@ class _Prism:
         head = _head(lines, self.file, expected)
         if len(head.words) != 3:
             raise head.wrong(0, f"expected {expected}")
-        self.num_states, _, num_transitions = (head.index(i, expected) for i in range(3))
+        self.num_states, _, num_transitions = (head.whole(i, expected) for i in range(3))
         if self.num_states == 0 or self.num_states > len(self.file.text):  # and most states have a line
             raise head.wrong(0, "the first line declares more states than the file can have, or none",
                              "the file may be cut off: export it again")
@@ -491,8 +491,8 @@ class _Prism:
                                  "choose a probability in each interval")
             if len(words) not in (4, 5):
                 raise line.wrong(0, "expected state, choice, next state, probability and perhaps an action")
-            s, t = line.index(0, "a state", self.num_states), line.index(2, "a state", self.num_states)
-            choice, chance = line.index(1, "the number of a choice"), line.number(3, "a probability")
+            s, t = line.whole(0, "a state", self.num_states), line.whole(2, "a state", self.num_states)
+            choice, chance = line.whole(1, "the number of a choice"), line.number(3, "a probability")
             if len(words) == 4 and s == t and chance == 1:  # how PRISM writes that nothing can be done
                 continue
             action = words[4] if len(words) == 5 else f"choice {choice}"
@@ -546,23 +546,24 @@ class _Prism:
             width = {2: 2, 3: 4}.get(len(head.words))
             if width is None:
                 raise head.wrong(0, "expected 'states rewards' (.srew) or 'states choices rewards' (.trew)")
-            if head.index(0, "the number of states") != self.num_states:
+            if head.whole(0, "the number of states") != self.num_states:
                 raise head.wrong(0, f"these are not the rewards of this model: it has {self.num_states} states",
                                  "export all files at once")
-            seen: set[tuple[int, ...]] = set()
+            seen: set[Union[int, tuple[int, int, int]]] = set()
             for line in lines:
                 if len(line.words) != width:
                     raise line.wrong(0, "expected a state and its reward" if width == 2 else
                                      "expected state, choice, next state and reward")
-                s, reward = line.index(0, "a state", self.num_states), line.number(width - 1, "a number")
-                where = (s,) if width == 2 else (s, line.index(1, "a choice"), line.index(2, "a state", self.num_states))
-                if where in seen:
+                s, reward = line.whole(0, "a state", self.num_states), line.number(width - 1, "a number")
+                transition = None if width == 2 else (s, line.whole(1, "a choice"),
+                                                      line.whole(2, "a state", self.num_states))
+                if (transition or s) in seen:
                     what = "state" if width == 2 else "transition"
                     raise line.wrong(0, f"the reward of this {what} is given twice", "keep one of the lines")
-                seen.add(where)
-                if len(where) == 3 and where in self.found:
-                    of_transitions[where] = of_transitions.get(where, 0.0) + reward
-                elif len(where) == 3 and (s in acting or where != (s, 0, s)):
+                seen.add(transition or s)
+                if transition is not None and transition in self.found:
+                    of_transitions[transition] = of_transitions.get(transition, 0.0) + reward
+                elif transition is not None and (s in acting or transition != (s, 0, s)):
                     raise line.wrong(0, f"there is no such transition in {self.file.name}", "export all files at once")
                 elif reward:
                     of_states[s] = of_states.get(s, 0.0) + reward
@@ -597,7 +598,7 @@ class _Prism:
                                  f"states are numbered 0 to {self.num_states - 1}")
             seen.add(s)
             for i in range(1, len(line.words)):
-                name = names.get(line.index(i, "the number of a label"))
+                name = names.get(line.whole(i, "the number of a label"))
                 if name is None:
                     raise line.wrong(i, "expected the number of a label")
                 state = self.mdp.states[s]
