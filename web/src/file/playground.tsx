@@ -59,7 +59,8 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
   const [errors, setErrors] = useState<string[]>([]);
   const [isBusy, setBusy] = useState(true);
   const [lesson, setLesson] = useState(0); // counts lessons that were begun
-  const run = useRef(0);
+  const run = useRef(0); // counts changes
+  const isAsking = useRef(false);
   const inputs = { ...file.inputs, [kDomain]: text };
 
   const take = async (): Promise<void> => {
@@ -69,25 +70,30 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
     useTransport(server);
     setLesson((count) => count + 1);
   };
-  const begin = async (own: number): Promise<void> => {
+  const latest = useRef({ inputs, asked, isLesson: false, take });
+  latest.current = { inputs, asked, isLesson: tab === 'lesson', take };
+  // One question at a time: what changed meanwhile is asked when the answer is there, and only the last of it.
+  const begin = async (): Promise<void> => {
+    if (isAsking.current) return;
+    isAsking.current = true;
+    const own = run.current;
     let found: string[] = [];
     try {
-      if (tab === 'lesson') await take();
-      else {
-        const reply = await engine.ask<Played>({ do: 'play', inputs, asked });
-        if (own === run.current) setPlayed(reply);
-      }
+      const { inputs, asked, isLesson, take } = latest.current;
+      if (isLesson) await take();
+      else setPlayed(await engine.ask<Played>({ do: 'play', inputs, asked }));
     } catch (error) {
       found = diagnosticsOf(error);
     }
-    if (own !== run.current) return;
+    isAsking.current = false;
+    if (own !== run.current) return begin();
     setErrors(found);
     setBusy(false);
   };
   useEffect(() => {
     setBusy(true);
-    const own = (run.current += 1);
-    const timer = setTimeout(() => void begin(own), played ? kPause : 0);
+    run.current += 1;
+    const timer = setTimeout(() => void begin(), played ? kPause : 0);
     return () => clearTimeout(timer);
   }, [text, asked, tab === 'lesson']);
 
