@@ -97,6 +97,16 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
     return () => clearTimeout(timer);
   }, [text, asked, tab === 'lesson']);
 
+  const said = (
+    <div id="said" role="status">
+      {errors.length > 0 && <p>The robot cannot be like this; what is shown is from before.</p>}
+      {[...errors, ...(tab === 'file' ? (played?.warnings ?? []).filter((one) => !isOfStudy(one)) : [])].map((one) => (
+        <pre class="said" tabIndex={0}>
+          {one.replaceAll('/study/', '')}
+        </pre>
+      ))}
+    </div>
+  );
   return (
     <main id="main" tabIndex={-1} class="playground" lang="en" dir="ltr">
       <h1>{file.title}: playground</h1>
@@ -110,17 +120,10 @@ export function Playground({ engine, file }: { engine: Engine; file: LessonFile 
         ))}
       </p>
       <section aria-label={kTabs[tab]} aria-busy={isBusy}>
-        {tab === 'robot' && played && <Robot text={text} original={original} onText={setText} played={played} onAsk={setAsked} />}
+        {tab === 'robot' && played && <Robot text={text} original={original} onText={setText} played={played} onAsk={setAsked} said={said} />}
         {tab === 'file' && <Editor text={text} onText={setText} isBad={errors.length > 0} />}
         {tab === 'lesson' && lesson > 0 && <App key={lesson} />}
-        <div id="said" role="status">
-          {errors.length > 0 && <p>The robot cannot be like this; what is shown is from before.</p>}
-          {[...errors, ...(tab === 'file' ? (played?.warnings ?? []).filter((one) => !isOfStudy(one)) : [])].map((said) => (
-            <pre class="said" tabIndex={0}>
-              {said.replaceAll('/study/', '')}
-            </pre>
-          ))}
-        </div>
+        {!(tab === 'robot' && played) && said}
       </section>
       <p>Nothing leaves this page, and nothing is kept: save the robot to go on with it.</p>
       <div class="buttons">
@@ -139,9 +142,10 @@ interface RobotProps {
   onText: (text: string) => void;
   played: Played;
   onAsk: (asked: Asking | null) => void;
+  said: JSX.Element; // beside the sliders, where people look
 }
 
-function Robot({ text, original, onText, played: { explore, learn }, onAsk }: RobotProps): JSX.Element {
+function Robot({ text, original, onText, played: { explore, learn }, onAsk, said }: RobotProps): JSX.Element {
   const board = explore?.first.board;
   const counted = board?.domain.counted ?? [];
   const { surfaces } = useLegend(board?.domain ?? { id: '' });
@@ -161,6 +165,7 @@ function Robot({ text, original, onText, played: { explore, learn }, onAsk }: Ro
             </label>
           );
         })}
+        {said}
         <Brackets title="What there is to learn" brackets={learn} counted={counted} />
       </div>
       <div>
