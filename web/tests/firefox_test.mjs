@@ -149,7 +149,9 @@ async function drive(browser) {
 
 const kActs = {
   consent: async (browser) => {
-    await browser.use('Start');
+    await browser.focus('the box', "(one) => one.type === 'checkbox'");
+    await browser.press('Space');
+    await browser.use('Agree and continue');
   },
   check: async (browser) => {
     if ((await browser.evaluate("document.querySelector('h1').textContent")) !== 'Try the controls') await browser.use('Continue');
