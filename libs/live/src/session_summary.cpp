@@ -66,12 +66,16 @@ RobotInWords robot_in_words(const RoomParts& room) {
   for (const auto& past : room.state.session->history()) is_taught[past.lesson.component] = true;
   RobotInWords words;
   std::vector<std::string> said;
+  Cone known = atlas.prior_cone();  // to whoever has learned what was taught
   for (const bool taught : {true, false}) {
     std::vector<HalfSpace> constraints;
     for (std::size_t k = 0; k < components.size(); ++k) {
       if (is_taught[k] != taught) continue;
       const auto own = atlas.constraints().half_spaces(components[k].constraints.without(atlas.prior()));
-      constraints.insert(constraints.end(), own.begin(), own.end());
+      if (taught) static_cast<void>(known.clip(own));
+      for (const auto& one : own) {
+        if (taught || !known.implies(one)) constraints.push_back(one);
+      }
     }
     for (auto& text : all_in_words(atlas.domain(), constraints)) {
       if (std::find(said.begin(), said.end(), text) != said.end()) continue;

@@ -26,8 +26,9 @@ export function scoreOf({ predictions }: Progress): number | null {
   return tests.length === 0 ? null : tests.filter(({ right }) => right).length / tests.length;
 }
 
-/** Whether everything there is to learn was learned. */
-export const isLearned = ({ components }: Progress): boolean => components.length > 0 && components.every(({ status }) => status === 'learned');
+/** Whether everything there is to learn was learned; what the teacher skips is learned with the rest. */
+export const isLearned = ({ components }: Progress): boolean =>
+  components.some(({ status }) => status === 'learned') && components.every(({ status }) => status === 'learned' || status === 'skipped');
 
 export interface Door {
   /** Tells learners apart who use the same browser. */
