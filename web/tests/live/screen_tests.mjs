@@ -495,7 +495,7 @@ export function screenTests(setting) {
         await page.waitForSelector('.way.own');
         assert.equal(await person.drawn('other'), 2);
         const { feedback } = views['feedback-wrong'];
-        const bracket = { feature: 0, reference: 2, low: [-4, 1], high: [-2, 1], text: 'crossing rubble costs 2 to 4 steps' };
+        const bracket = { feature: 0, reference: 2, low: [-4, 1], high: [-2, 1], ends: ['2', '4'], text: 'crossing rubble costs 2 to 4 steps' };
         await show({ person, page }, { ...views['feedback-wrong'], feedback: { ...feedback, brackets: [bracket] } });
         assert.match(await page.textContent('.bracket'), /Crossing rubble costs 2 to 4 steps\./);
         assert.equal(await page.locator('.bracket .end').count(), 2);

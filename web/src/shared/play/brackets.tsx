@@ -48,9 +48,8 @@ function inNumbers({ feature, reference, ends: [from, to] }: Bracket, counted: C
 
 // Costs and gains alike grow to the right.
 function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): JSX.Element {
-  const [low, high] = [valueOf(bracket.low), valueOf(bracket.high)];
-  const isCost = high !== null && high <= 0;
-  const [from, to] = isCost ? [-high, low === null ? null : -low] : [low ?? 0, high];
+  const [least, largest] = bracket.ends; // as the sentence has them
+  const [from, to] = [Number(least), largest === '' ? null : Number(largest)];
   const most = Math.max(2, Math.ceil((to ?? from) * 1.5));
   const place = (x: number): number => kSide + (x / most) * (kWidth - kSide - kRight);
   const [left, right] = [place(from), to === null ? kWidth - kRight : place(to)];
