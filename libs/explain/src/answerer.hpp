@@ -149,7 +149,8 @@ class Answerer {
   // About the path from the map's start.
   void why_path();
 
-  // The world that explains best why something happens (or not): the last in which it is so by choice, or at all.
+  // The world that explains best why something happens (or not): among those in which it is so, one in which the robot
+  // weighs the fewest features against each other.
   [[nodiscard]] MdpIndex world_to_explain(bool happens) const;
 
   void conclude(StartIndex start, const std::string& says, const std::optional<Contrast>& contrast,

@@ -14,7 +14,7 @@ namespace kith::math {
 [[nodiscard]] double log(double x) noexcept;
 /// log(1 + x), with its digits near 0: error below 3.
 [[nodiscard]] double log1p(double x) noexcept;
-/// exp(y log(x)), 0 <= x: error below 1 + 3 |y log(x)|.
+/// exp(y log(x)), 0 <= x: error below 1 + 3 |y log(x)|. NaN where x and y are 0.
 [[nodiscard]] double pow(double x, double y) noexcept;
 
 /// Error below 0.8 for |x| <= 1e5, beyond which there are no digits left.
