@@ -106,7 +106,7 @@ function(kith_test_web_pages source build)
   add_test(NAME web.ReportOfKith COMMAND ${KITH_NODE} ${source}/tests/report_test.mjs --kith $<TARGET_FILE:kith> ${tools})
   add_test(NAME web.ReportParts COMMAND ${KITH_NODE} ${source}/tests/parts_test.mjs ${report} ${sample} ${tools})
   add_test(NAME web.Lesson COMMAND ${KITH_NODE} ${source}/tests/lesson_test.mjs ${build}/lesson.html
-    --document ${source}/sample/lesson.json ${tools})
+    --kith $<TARGET_FILE:kith> ${tools})
   set_tests_properties(web.Report web.ReportOfKith web.ReportParts web.Lesson PROPERTIES
     ${browser_of_files} TIMEOUT 900 LABELS web)
   set_property(TEST web.ReportParts PROPERTY LABELS slow)
