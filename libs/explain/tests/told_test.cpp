@@ -94,7 +94,7 @@ void expect_form(const std::string& sentence) {
   }
 }
 
-TEST(ToldSlow, IsWhatTheFileSays) {
+TEST(Told, IsWhatTheFileSays) {
   Told told;
   for (const auto& domain : built_in_domains()) told.add_lesson(atlas_of(std::string{domain.name}));
   std::vector<std::string> gallery;
