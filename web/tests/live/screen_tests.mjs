@@ -541,13 +541,9 @@ export function screenTests(setting) {
 
     it('needs less than 200 kB of scripts, before compression', async () => {
       await withViews(setting, async ({ page }) => {
-        const bodies = [];
-        page.on('response', (response) => {
-          if (/\.js$/.test(response.url())) bodies.push(response.body());
-        });
-        await page.reload();
-        await page.waitForSelector('h1');
-        const sizes = (await Promise.all(bodies)).map(({ length }) => length);
+        const sizes = await page.evaluate(() =>
+          performance.getEntriesByType('resource').flatMap(({ name, decodedBodySize }) => (/\.js$/.test(name) ? [decodedBodySize] : [])),
+        );
         const sum = sizes.reduce((a, b) => a + b, 0);
         assert.ok(sum > 10_000 && sum < 200_000, `${sizes} bytes before compression`);
       });
