@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "kith/learners/learner.hpp"
+#include "kith/study/records.hpp"
 #include "kith/teaching/forecast.hpp"
+#include "kith/teaching/session.hpp"
 
 namespace kith {
 
