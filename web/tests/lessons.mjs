@@ -25,11 +25,11 @@ function robotAlong(cells, actions) {
 const lessonOf = (domain, board, shown) => ({
   schema: 'kith.curriculum/1',
   title: domain.title,
-  program: 'kith',
+  program: '0.1.0',
   ...kUndriven,
   domain,
   components: [
-    { number: 1, name: 'one against the other', sentences: [sentence], demonstrations: [{ ...board, conveys: [sentence], ...shown }], tests: [{ ...board, state: 1, covers: [sentence] }] },
+    { number: 1, name: 'one against the other', sentences: [sentence], demonstrations: [{ ...board, first: true, conveys: [sentence], ...shown }], tests: [{ ...board, first: true, state: 1, covers: [sentence] }] },
   ],
   skipped: [],
 });

@@ -66,12 +66,6 @@ class CurriculumText {
       line("someone missing this fact would predict: " + with_chance(world, contrast.alternative), 5);
       line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, place(world, fork)), 5);
     }
-    if (shown.flip) {
-      line(fmt::format("{}: {}", world_text(atlas_.domain(), atlas_.id(shown.flip->start).mdp),
-                       flip_in_words(atlas_, contrast, *shown.flip)),
-           5);
-      out_ += start_and_path(domain_, atlas_.id(shown.flip->start), shown.flip->robot, 5);
-    }
   }
 
   // What happened in several runs, and the paths that they took.

@@ -169,7 +169,7 @@ Json brackets_json(const Domain& domain, std::span<const Bracket> brackets) {
                    {"reference", bracket.reference},
                    {"low", ratio_json(bracket.low)},
                    {"high", ratio_json(bracket.high)},
-                   {"ends", {ends_of(bracket).from, ends_of(bracket).to}},
+                   {"ends", {ends_of(domain, bracket).from, ends_of(domain, bracket).to}},
                    {"text", bracket_in_words(domain, bracket)}});
   }
   return all;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kith/explain/statement.hpp"
 #include "kith/geometry/cone.hpp"
 
 namespace kith {
@@ -48,8 +49,9 @@ std::int64_t whole(const Ratio& ratio, bool up) {
   return n + (up && rest > 0 ? 1 : 0) - (!up && rest < 0 ? 1 : 0);
 }
 
-// The text of `least` and of `most`, empty if there is none.
-std::pair<std::string, std::string> texts_of(const std::optional<Ratio>& least, const std::optional<Ratio>& most) {
+// The text of `least` and of `most`, empty if there is none; both are 0 or more.
+std::pair<std::string, std::string> texts_of(const Domain& domain, const std::optional<Ratio>& least,
+                                             const std::optional<Ratio>& most) {
   constexpr double kNear = 0.1;
   if (least && most) {
     const double n = std::nearbyint(least->value());
@@ -58,7 +60,12 @@ std::pair<std::string, std::string> texts_of(const std::optional<Ratio>& least, 
       return {text, text};
     }
   }
-  return {least ? std::to_string(whole(*least, false)) : "", most ? std::to_string(whole(*most, true)) : ""};
+  const auto text = [&](const std::optional<Ratio>& end, bool up) {
+    if (!end) return std::string{};
+    const auto n = whole(*end, up);
+    return std::to_string(domain.is_exact() ? n : round_number(n, up));
+  };
+  return {text(least, false), text(most, true)};
 }
 
 std::optional<Ratio> times(const std::optional<Ratio>& ratio, std::int64_t sign) {
@@ -77,8 +84,10 @@ std::string amount(const Wording& wording, const std::string& number) {
 }
 
 // What is at least `least` and at most `most`, if there are such; both are 0 or more.
-std::string range_in_words(const Wording& unit, const std::optional<Ratio>& least, const std::optional<Ratio>& most) {
-  const auto [from, to] = texts_of(least, most);
+std::string range_in_words(const Domain& domain, std::size_t reference, const std::optional<Ratio>& least,
+                           const std::optional<Ratio>& most) {
+  const auto& unit = domain.wording(reference);
+  const auto [from, to] = texts_of(domain, least, most);
   const bool has_least = least && from != "0";
   if (has_least && from == to) return (*least == *most ? "" : "about ") + amount(unit, from);
   if (has_least && most) return amount(unit, from + " to " + to);
@@ -132,27 +141,26 @@ Bracket while_others_stay(const Domain& domain, std::span<const HalfSpace> known
   return bracket;
 }
 
-BracketEnds ends_of(const Bracket& bracket) {
+BracketEnds ends_of(const Domain& domain, const Bracket& bracket) {
   if (is_cost(bracket)) {
-    auto [from, to] = texts_of(times(bracket.high, -1), times(bracket.low, -1));
+    auto [from, to] = texts_of(domain, times(bracket.high, -1), times(bracket.low, -1));
     return {from, to};
   }
   if (is_gain(bracket)) {
-    auto [from, to] = texts_of(bracket.low, bracket.high);
+    auto [from, to] = texts_of(domain, bracket.low, bracket.high);
     return {from, to};
   }
-  return {texts_of({}, times(bracket.low, -1)).second, texts_of({}, bracket.high).second};
+  return {texts_of(domain, {}, times(bracket.low, -1)).second, texts_of(domain, {}, bracket.high).second};
 }
 
 std::string bracket_in_words(const Domain& domain, const Bracket& bracket) {
   const auto& thing = domain.wording(bracket.feature).one;
-  const auto& unit = domain.wording(bracket.reference);
   const auto& [feature, reference, low, high] = bracket;
-  if (is_cost(bracket)) return thing + " costs " + range_in_words(unit, times(high, -1), times(low, -1));
-  if (is_gain(bracket)) return thing + " is worth " + range_in_words(unit, low, high);
+  if (is_cost(bracket)) return thing + " costs " + range_in_words(domain, reference, times(high, -1), times(low, -1));
+  if (is_gain(bracket)) return thing + " is worth " + range_in_words(domain, reference, low, high);
   std::string text = thing;
-  if (low) text += " costs " + range_in_words(unit, {}, times(low, -1));
-  if (high) text += std::string{low ? " and" : ""} + " is worth " + range_in_words(unit, {}, high);
+  if (low) text += " costs " + range_in_words(domain, reference, {}, times(low, -1));
+  if (high) text += std::string{low ? " and" : ""} + " is worth " + range_in_words(domain, reference, {}, high);
   return text;
 }
 

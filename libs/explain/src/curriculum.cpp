@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
@@ -92,6 +94,8 @@ class CurriculumMaker {
       throw nothing_to_teach(atlas_, kUntold);
     }
     keep_what_was_shown();
+    choose_first();
+    add_brackets();
     add_fresh_tests();
     curriculum_.endless = simplest_endless();
     return std::move(curriculum_);
@@ -118,7 +122,6 @@ class CurriculumMaker {
       if (news(shown.half_spaces).empty()) continue;
       result.demonstrations.push_back(demonstration(shown, known));
       known = together(known, shown.half_spaces);
-      result.demonstrations.back().brackets = brackets(atlas_.domain(), known, taught.features, reference_);
     }
     const auto points = beliefs(older_ ? older_->minimal_set() : before);
     for (const auto& test : lesson.tests) {
@@ -136,9 +139,7 @@ class CurriculumMaker {
     auto contrast = contrast_for(cache_.behaviours(), shown.start, main, cells_of(shown.counterfactuals));
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
     auto sentence = reason(atlas_, *contrast, conveys);
-    auto flip = nearest_flip(atlas_, *contrast);
-    return {shown.start,     std::move(conveys),     main, *std::move(contrast), std::move(sentence),
-            std::move(flip), runs_from(shown.start), {}};
+    return {shown.start, std::move(conveys), main, *std::move(contrast), std::move(sentence), runs_from(shown.start)};
   }
 
   // What people do not know of the robot as it was before.
@@ -197,7 +198,7 @@ class CurriculumMaker {
     const auto difficulty = share >= kEasy  ? Difficulty::kEasy
                             : share < kHard ? Difficulty::kHard
                                             : Difficulty::kMedium;
-    return {test.start, test.covered, test.is_shortest_wrong, share, difficulty, runs_from(test.start)};
+    return {test.start, test.covered, test.is_shortest_wrong, false, share, difficulty, runs_from(test.start)};
   }
 
   // Of some starts in worlds that were neither shown nor tested, those about which most can be wrong; each in a world
@@ -246,6 +247,40 @@ class CurriculumMaker {
     }
     for (auto& component : curriculum_.components) {
       std::erase_if(component.constraints, [&](const HalfSpace& constraint) { return !shown.implies(constraint); });
+    }
+  }
+
+  // Each start once; of every component what comes first.
+  void choose_first() {
+    std::set<StartIndex> seen;
+    std::vector<std::pair<double, bool*>> boards;  // by how late they come in their component
+    const auto add = [&](double rank, StartIndex start, bool& is_first) {
+      if (seen.insert(start).second) boards.emplace_back(rank, &is_first);
+    };
+    for (auto& component : curriculum_.components) {
+      for (std::size_t i = 0; auto& shown : component.demonstrations) {
+        add(static_cast<double>(i++), shown.start, shown.is_first);
+      }
+      for (std::size_t i = 0; auto& test : component.tests) {
+        const auto rank = static_cast<double>(i++) + 0.5;
+        if (test.is_shortest_wrong) add(rank, test.start, test.is_first);
+      }
+    }
+    std::ranges::stable_sort(boards, {}, &std::pair<double, bool*>::first);
+    for (std::size_t i = 0; i < std::min(boards.size(), Curriculum::kMostFirst); ++i) *boards[i].second = true;
+  }
+
+  void add_brackets() {
+    auto known = together(atlas_.domain().prior(), update_.still);
+    for (const bool is_first : {true, false}) {
+      for (auto& component : curriculum_.components) {
+        const auto& features = atlas_.knowledge_components()[component.component].features;
+        for (auto& shown : component.demonstrations) {
+          if (shown.is_first != is_first) continue;
+          known = together(std::move(known), shown.conveys);
+          shown.brackets = brackets(atlas_.domain(), known, features, reference_);
+        }
+      }
     }
   }
 

@@ -90,13 +90,7 @@ Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown
   json["alternative"] = path_json(domain, world, shown.contrast.alternative);
   json["decisive"] = step_json(domain, world, shown.contrast.robot, shown.contrast.decisive);
   json["runs"] = runs_json(domain, world, shown.runs);
-  json["flip"] = nullptr;
-  if (shown.flip) {
-    const auto id = atlas.id(shown.flip->start);
-    json["flip"] = board_json(domain, id);
-    json["flip"].update(path_json(domain, id.mdp, shown.flip->robot));
-    json["flip"]["text"] = flip_in_words(atlas, shown.contrast, *shown.flip);
-  }
+  json["first"] = shown.is_first;
   return json;
 }
 
@@ -109,6 +103,7 @@ Json test_json(const Atlas& atlas, const CurriculumTest& test, Tables& tables) {
   json["difficulty"] = name_of(test.difficulty);
   json["share_right"] = test.share_right;
   json["is_shortest_wrong"] = test.is_shortest_wrong;
+  json["first"] = test.is_first;
   json["covers"] = sentences_json(atlas.domain(), test.covers);
   return json;
 }
@@ -178,7 +173,6 @@ Json for_page(Json curriculum) {
     for (auto& board : boards) {
       if (!board["runs"].is_null()) continue;
       shorten(board);
-      board.erase("flip");
       if (board.contains("alternative")) shorten(board["alternative"]);
     }
   };

@@ -45,7 +45,7 @@ std::string compared(const Domain& domain, const IntegerVector& own, const Integ
   }
   if (spared.empty()) {
     if (taken.gains.empty()) return "it would " + taken.words() + " for nothing";
-    return taken.costs.empty() ? "it would rather " + taken.words() + " than not" : "it will " + taken.words();
+    return "it will " + taken.words();
   }
   if (!taken.empty()) return "it would rather " + taken.words() + " than " + spared.words();
   if (spared.costs.empty()) return "it would not " + spared.words() + ", although that costs nothing";

@@ -19,15 +19,6 @@ namespace {
 
 constexpr std::int64_t kLargest = 1000;  // beyond that nobody compares numbers
 
-// The smallest round number that is at least n (`up`), or the largest that is at most n: whole numbers up to 20, then
-// multiples of 5 up to 100, of 10 up to 1000.
-std::int64_t round_number(std::int64_t n, bool up) {
-  constexpr std::int64_t kAny = 20, kHundred = 100, kStep = 5, kLargeStep = 10;
-  const auto large = n > kHundred ? kLargeStep : kStep;
-  const auto unit = n <= kAny ? 1 : large;
-  return (n / unit + (up && n % unit != 0 ? 1 : 0)) * unit;
-}
-
 // Whether people can keep the numbers in mind: one may be large. Beside it another up to 10, or if there are three or
 // more things another up to 3, and each of the rest once.
 bool is_light(const IntegerVector& normal) {
@@ -182,6 +173,13 @@ HalfSpace sign_of_feature(const Domain& domain, std::size_t k) {
 }
 
 }  // namespace
+
+std::int64_t round_number(std::int64_t n, bool up) noexcept {
+  constexpr std::int64_t kAny = 20, kHundred = 100, kStep = 5, kLargeStep = 10;
+  const auto large = n > kHundred ? kLargeStep : kStep;
+  const auto unit = n <= kAny ? 1 : large;
+  return (n / unit + (up && n % unit != 0 ? 1 : 0)) * unit;
+}
 
 std::optional<ShortStatement> short_statement(const Domain& domain, const HalfSpace& half_space,
                                               std::span<const HalfSpace> together) {

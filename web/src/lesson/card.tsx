@@ -77,15 +77,21 @@ interface Pair {
   reason: string;
 }
 
+// Where somebody's path leaves the robot's. Where chance has a part, runs differ by themselves: then whether it begins
+// with another move.
+const departureOf = (shown: Demonstration | Test, mine: Path): number | null =>
+  shown.runs && shown.frames[0]?.action === mine.frames[0]?.action ? null : partingOf(shown, mine);
+
 // First with one's own; what the board was chosen for, if that is something else, with the path that shows it.
 function pairsOf(context: Context, shown: Demonstration | Test, { mine, verdict }: Guess): Pair[] {
   const isWrong = mine !== null && !verdict?.isRight;
   const why = isWrong ? whyNot(context, shown, mine) : '';
   const title = t(`feedback.title.${!mine ? 'none' : isWrong ? 'wrong' : 'right'}`);
-  const own: Pair = { title, other: isWrong ? mine : null, isMine: true, at: isWrong ? partingOf(shown, mine) : null, reason: why };
+  const isDrawn = mine !== null && (isWrong || (!shown.runs && departureOf(shown, mine) !== null));
+  const own: Pair = { title, other: isDrawn ? mine : null, isMine: true, at: isDrawn ? partingOf(shown, mine) : null, reason: why };
   if (!isExample(shown)) return [own];
-  const taught: Pair = { title: isWrong ? 'Now this one' : title, other: shown.alternative, isMine: false, at: shown.decisive?.frame ?? null, reason: shown.reason };
-  if (!isWrong) return [taught];
+  const taught: Pair = { title: isDrawn ? 'Now this one' : title, other: shown.alternative, isMine: false, at: shown.decisive?.frame ?? null, reason: shown.reason };
+  if (!isDrawn) return [taught];
   if (!shown.alternative) return [own];
   return isAlike(shown, mine, shown.alternative) ? [{ ...own, reason: shown.reason }] : [own, taught];
 }
@@ -116,7 +122,7 @@ function Seen({ shown, guess, isStill, next, ...context }: Context & Pick<Props,
   const board = playBoard(domain, shown);
   const isLast = beat === pairs.length - 1;
   const word = !guess.mine ? 'none' : guess.verdict?.isRight ? 'right' : 'wrong';
-  const reason = <Reason reason={pair.reason} shown={shown} word={word} isAsGood={word === 'right' && guess.mine !== null && partingOf(shown, guess.mine) !== null} />;
+  const reason = <Reason reason={pair.reason} shown={shown} word={word} isAsGood={beat === 0 && word === 'right' && guess.mine !== null && departureOf(shown, guess.mine) !== null} />;
   const goOn = (
     <>
       {isLast && isExample(shown) && <Brackets brackets={shown.brackets} counted={domain.counted} />}
@@ -166,16 +172,16 @@ function Seen({ shown, guess, isStill, next, ...context }: Context & Pick<Props,
 }
 
 // Both halves of "it would rather take 2 more steps than cross rubble: crossing rubble costs more than 2 steps". Of a
-// test without such a sentence, what it was about.
+// test that somebody answered who must have known it, what it was about.
 function Reason({ reason, shown, word, isAsGood }: { reason: string; shown: Demonstration | Test; word: 'right' | 'wrong' | 'none'; isAsGood: boolean }): JSX.Element {
   const [first = '', second = ''] = reason.split(': ');
-  const about = isExample(shown) || first !== '' || (word === 'right' && !shown.is_shortest_wrong) ? [] : textsOf(shown.covers);
+  const about = isExample(shown) || first !== '' || word !== 'right' || !shown.is_shortest_wrong ? [] : textsOf(shown.covers);
   return (
     <div class="reasons">
       {isAsGood && <p>{t('feedback.right_other')}</p>}
       {first !== '' && <p class="cost">{sentence(first)}</p>}
       {second !== '' && <p>{sentence(second)}</p>}
-      {about.length > 0 && <p>{word === 'right' ? t('feedback.showed') : 'What the robot has shown:'}</p>}
+      {about.length > 0 && <p>{t('feedback.showed')}</p>}
       {about.length > 0 && (
         <ul>
           {about.map((text) => (

@@ -7,14 +7,9 @@ export interface Card {
   shown: Demonstration | Test;
 }
 
-const kMost = 12;
-
 export const isExample = (shown: Card['shown']): shown is Demonstration => 'reason' in shown;
 
-// A test that the shortest path answers tells nothing about whoever is right.
-const tells = ({ shown }: Card): boolean => isExample(shown) || shown.is_shortest_wrong !== false; // older documents do not say
-
-// What a lesson begins with, and what is offered when that is over. Of every part the first boards tell most.
+// What a lesson begins with, and what is offered when that is over.
 export function cardsOf({ components, fresh }: Lesson): { first: Card[]; more: Card[] } {
   const seen = new Set<string>();
   const isNew = ({ shown: { world, state, frames } }: Card): boolean => {
@@ -23,13 +18,12 @@ export function cardsOf({ components, fresh }: Lesson): { first: Card[]; more: C
   };
   const all = components
     .flatMap(({ number, demonstrations, tests }) => [
-      ...demonstrations.map((shown, i) => ({ name: `example.${number}.${i}`, kind: 'Example' as const, shown, rank: i })),
-      ...tests.map((shown, i) => ({ name: `test.${number}.${i}`, kind: 'Test' as const, shown, rank: i + 0.5 })),
+      ...demonstrations.map((shown, i): Card => ({ name: `example.${number}.${i}`, kind: 'Example', shown })),
+      ...tests.map((shown, i): Card => ({ name: `test.${number}.${i}`, kind: 'Test', shown })),
     ])
     .filter(isNew);
-  const best = new Set(all.filter(tells).sort((a, b) => a.rank - b.rank).slice(0, kMost));
   const unseen = fresh.map((shown, i): Card => ({ name: `fresh.${i}`, kind: 'New board', shown })).filter(isNew);
-  return { first: all.filter((card) => best.has(card)), more: [...all.filter((card) => !best.has(card)), ...unseen] };
+  return { first: all.filter(({ shown }) => shown.first), more: [...all.filter(({ shown }) => !shown.first), ...unseen] };
 }
 
 // Mistakes are of one kind if they have too much and too little of the same things.

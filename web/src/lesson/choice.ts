@@ -40,7 +40,7 @@ export function choiceText({ domain }: Lesson, robot: number[], mine: number[]):
     return some.map(deed).join(new Set(some.map(({ feature }) => feature.weight < 0)).size === 1 ? between : ' to ');
   };
   const [taken, spared] = [words(true, ' and '), words(false, ' or ')];
-  if (spared === '') return all.every(({ feature }) => feature.weight > 0) ? `it would rather ${taken} than not` : `it will ${taken}`;
+  if (spared === '') return `it will ${taken}`;
   if (taken !== '') return `it would rather ${taken} than ${spared}`;
   return all.some(({ feature }) => feature.weight > 0) ? `it will not ${spared}` : `it would rather not ${spared}`;
 }

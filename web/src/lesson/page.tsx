@@ -186,7 +186,7 @@ function Notices({ lesson }: { lesson: Lesson }): JSX.Element {
     <section id="notices" aria-labelledby="notices-title">
       <h2 id="notices-title">About this page</h2>
       <p>
-        Made by {lesson.program} from the domain {lesson.domain.id}
+        Made by kith {lesson.program} from the domain {lesson.domain.id}
         {lesson.seed === undefined ? '' : `, seed ${lesson.seed}`}. It needs no network.
       </p>
       <Licences />

@@ -4,7 +4,7 @@ import { Button } from '../shared/play/button';
 import { Brackets, type Bracket } from '../shared/play/brackets';
 import { counted, sentence } from '../shared/texts';
 import { Title, Whole } from './card';
-import type { Card } from './cards';
+import { isExample, type Card } from './cards';
 import { partingOf, usePrinting, type Context, type Guess } from './context';
 import type { Component, Demonstration } from './document';
 
@@ -23,10 +23,10 @@ export function End({ answers, more, onMore, ...context }: EndProps): JSX.Elemen
       <Title isQuiet={isPrinting}>What this robot is like</Title>
       {predicted.length > 0 && (
         <p role="status">
-          You predicted the robot correctly on {right} of {counted(predicted.length, 'board')}.
+          You were right on {right} of {counted(predicted.length, 'board')}.
         </p>
       )}
-      <Portrait {...context} answers={predicted} />
+      <Portrait {...context} answers={predicted} seen={answers.map(({ card }) => card)} />
       <div class="submit no-print">
         <div class="buttons">
           {more > 0 && (
@@ -47,11 +47,11 @@ function shownBy({ demonstrations }: Component, all: Component[], text: string):
   return demonstrations.find(says) ?? all.flatMap((one) => one.demonstrations).find(says) ?? demonstrations[0];
 }
 
-function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>): JSX.Element {
+function Portrait({ answers, seen, ...context }: Context & Pick<EndProps, 'answers'> & { seen: Card[] }): JSX.Element {
   const { components, endless, update } = context.lesson;
   const known = new Map<number, Bracket>();
-  for (const { brackets } of components.flatMap(({ demonstrations }) => demonstrations)) {
-    for (const bracket of brackets) known.set(bracket.feature, bracket);
+  for (const { shown } of seen) {
+    if (isExample(shown)) for (const bracket of shown.brackets) known.set(bracket.feature, bracket);
   }
   const said = new Set<string>();
   const lines = components.flatMap((component) =>
@@ -85,7 +85,7 @@ function Portrait({ answers, ...context }: Context & Pick<EndProps, 'answers'>):
       {update && <h3>What is new</h3>}
       {shown(lines)}
       {update && update.still.length > 0 && <p>As before, {update.still.join('; ')}.</p>}
-      <Brackets brackets={[...known.values()]} counted={context.domain.counted} />
+      <Brackets brackets={[...known.values()]} counted={context.domain.counted} title="What the boards tell" />
       <FirstAndLast {...context} answers={answers} />
     </div>
   );
@@ -101,7 +101,7 @@ function FirstAndLast({ answers, ...context }: Context & Pick<EndProps, 'answers
       <figure>
         <Whole {...context} board={shown} other={other} at={other && partingOf(shown, other)} />
         <figcaption>
-          {title}: {other ? 'the dashed line is yours, the solid one the robot\u2019s.' : 'right.'}
+          {title}: {other ? 'the dashed line is yours, the solid one the robot\u2019s.' : 'correct.'}
         </figcaption>
       </figure>
     );

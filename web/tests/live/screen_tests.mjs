@@ -284,7 +284,7 @@ export function screenTests(setting) {
       await withViews(setting, async ({ views, person, page }) => {
         await show({ person, page }, views['watch-runs']);
         const text = () => page.textContent('main');
-        assert.match(await text(), /Chance plays a part: 2 of its runs.*Run 1 of 2/s);
+        assert.match(await text(), /Chance plays a part: here are 2 of its runs.*Run 1 of 2/s);
         assert.doesNotMatch(await text(), /In all:/);
         assert.equal(await page.locator('.tried').count(), 0, 'drawn before it is walked');
         await playToTheEnd(person);

@@ -28,9 +28,11 @@ export function Chips({ chips, frames, other, first, thingsAt, width, height }: 
   const taken: Point[] = [];
   return (
     <g class="chips" aria-hidden="true">
-      {chips.map(({ kind, text, feature, thing }) => {
+      {chips.map(({ kind, text: whole, feature, thing }) => {
         const [way, away] = kind === 'own' ? [frames, other] : [other, frames];
-        const half = { x: (text.length * size * 0.56 + size * 1.2) / 2, y: size * 0.85 };
+        const halfOf = (text: string): number => (text.length * size * 0.62 + size * 1.2) / 2;
+        const text = halfOf(whole) > 0.2 * width ? (whole.split(' ')[0] ?? '') : whole; // the table beside the board names it
+        const half = { x: halfOf(text), y: size * 0.85 };
         const cell = counting({ kind, text, feature, thing }, frames, other, first, thingsAt);
         const at = freeOf(cell ? below(cell) : middle(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
         const x = Math.max(half.x - kMargin, Math.min(width - 2 * kMargin - half.x + kMargin, at.x));

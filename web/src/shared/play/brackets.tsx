@@ -28,7 +28,7 @@ export function Brackets({ brackets, counted = [], title = t('brackets.title') }
     <div class="brackets">
       <p class="brackets-title">{title}</p>
       {all.map((bracket) => (
-        <Scale bracket={bracket} counted={counted} />
+        <Scale bracket={bracket} counted={counted} most={Math.max(...all.filter(({ reference }) => reference === bracket.reference).map(mostOf))} />
       ))}
     </div>
   );
@@ -46,11 +46,13 @@ function inNumbers({ feature, reference, ends: [from, to] }: Bracket, counted: C
   return capitalised(t(`brackets.${ends}`, { what: labelOf(what), unit: labelOf(unit), from, to }));
 }
 
-// Costs and gains alike grow to the right.
-function Scale({ bracket, counted }: { bracket: Bracket; counted: Counted[] }): JSX.Element {
+// How far a scale goes that shows a bracket.
+const mostOf = ({ ends: [least, largest] }: Bracket): number => Math.max(2, Math.ceil(Number(largest || least) * 1.5));
+
+// Costs and gains alike grow to the right. What is in the same unit stands on one scale, which goes to `most`.
+function Scale({ bracket, counted, most }: { bracket: Bracket; counted: Counted[]; most: number }): JSX.Element {
   const [least, largest] = bracket.ends; // as the sentence has them
   const [from, to] = [Number(least), largest === '' ? null : Number(largest)];
-  const most = Math.max(2, Math.ceil((to ?? from) * 1.5));
   const place = (x: number): number => kSide + (x / most) * (kWidth - kSide - kRight);
   const [left, right] = [place(from), to === null ? kWidth - kRight : place(to)];
   const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].find((one) => most / one <= 8) ?? 2000;

@@ -46,12 +46,12 @@ struct Bracket {
                                         std::size_t reference);
 
 /// The ends of a bracket as numbers without a sign, empty where there is none: of a cost its least and its most, else
-/// those of `low` and `high`. In whole numbers, rounded so that no more is said than is known; one number for two ends
-/// that are within 0.1 of it.
+/// those of `low` and `high`. In whole numbers, rounded so that no more is said than is known, and where counts are not
+/// exact to what people keep in mind (round_number()); one number for two ends that are within 0.1 of it.
 struct BracketEnds {
   std::string from, to;
 };
-[[nodiscard]] BracketEnds ends_of(const Bracket& bracket);
+[[nodiscard]] BracketEnds ends_of(const Domain& domain, const Bracket& bracket);
 
 /// "crossing rubble costs 2 to 4 steps", "stopping at the charger is worth more than 2 steps", "crossing rubble costs
 /// less than 4 steps", with ends as ends_of() writes them.

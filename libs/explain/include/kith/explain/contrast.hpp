@@ -79,18 +79,6 @@ template <typename Predicate>
   return best;
 }
 
-/// A world like another one in which the robot decides differently.
-struct Flip {
-  StartIndex start;                  ///< The same start there.
-  Trajectory robot;                  ///< The robot's path there.
-  std::vector<std::size_t> toggled;  ///< Positions in Domain::optional_groups() of what differs.
-};
-
-/// The nearest world in which the robot decides as the alternative does: at the decisive step the alternative's action
-/// is optimal there and the robot's own is not (or does not exist), and all steps before are optimal in both. Nearest:
-/// the fewest optional groups differ, then the fewest cells, then the lowest number. Nothing for domains without a map.
-[[nodiscard]] std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast);
-
 /// The start of a demonstration in another world: the robot and what it carries are the same, things that only one of
 /// the worlds has are there or not. Nothing if that world has no such state.
 [[nodiscard]] std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex start, MdpIndex world);
@@ -102,8 +90,5 @@ struct Flip {
 
 /// Positions in Domain::optional_groups() at which two worlds differ.
 [[nodiscard]] std::vector<std::size_t> toggled_groups(const Domain& domain, MdpIndex a, MdpIndex b);
-
-/// "without the rubble at (2,1) it goes left at (3,2) rather than going up".
-[[nodiscard]] std::string flip_in_words(const Atlas& atlas, const Contrast& contrast, const Flip& flip);
 
 }  // namespace kith

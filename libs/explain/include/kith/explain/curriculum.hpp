@@ -20,9 +20,10 @@ struct CurriculumDemonstration {
   HalfSpace main;                  ///< The one that narrows most what was taught before; the reason's.
   Contrast contrast;               ///< With the path that a person who does not know `main` would expect.
   std::string reason;              ///< One sentence; see reason().
-  std::optional<Flip> flip;        ///< Nothing if the robot decides alike in all worlds.
   std::vector<PolicyRun> runs;     ///< As outcomes fell; nothing if chance has no part in what the robot does.
-  std::vector<Bracket> brackets;   ///< Of the component's features, by the prior and all that was shown up to here.
+  /// Of the component's features, by the prior and all that was shown up to here: first the boards that are first.
+  std::vector<Bracket> brackets{};
+  bool is_first = false;  ///< One of those that a lesson begins with; see Curriculum::kMostFirst.
 };
 
 enum class Difficulty { kEasy, kMedium, kHard };
@@ -35,6 +36,7 @@ struct CurriculumTest {
   StartIndex start;
   std::vector<HalfSpace> covers;   ///< Taught constraints that the robot's path is about.
   bool is_shortest_wrong = false;  ///< Test::is_shortest_wrong
+  bool is_first = false;           ///< As of a demonstration.
   /// Share of the beliefs that answer right, in [0, 1]: beliefs are uniform over what was known before the component.
   double share_right = 0.0;
   Difficulty difficulty = Difficulty::kMedium;  ///< Easy from two thirds on, hard below one third.
@@ -58,6 +60,10 @@ struct SkippedComponent {
 
 /// What would be taught to one attentive person, who answers every test right.
 struct Curriculum {
+  /// How many boards a lesson begins with at most: of every component the first ones, which tell most, without tests
+  /// that the shortest path answers. The others are offered afterwards.
+  static constexpr std::size_t kMostFirst = 12;
+
   std::vector<CurriculumComponent> components;
   std::vector<SkippedComponent> skipped;
   /// For those who have learned everything: tests in worlds that they have not seen, which about half of the beliefs

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "kith/geometry/half_space.hpp"
 
 namespace kith {
+
+/// The smallest number that people keep in mind that is at least n (`up`), or the largest that is at most n: whole
+/// numbers up to 20, then multiples of 5 up to 100, then of 10.
+[[nodiscard]] std::int64_t round_number(std::int64_t n, bool up) noexcept;
 
 /// What can be said in small numbers about a constraint on reward weights.
 struct ShortStatement {

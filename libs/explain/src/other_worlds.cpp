@@ -1,9 +1,8 @@
-// The nearest world in which the robot decides otherwise.
+// The same start in another world, and how worlds differ.
 #include <algorithm>
 
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/words.hpp"
-#include "walk.hpp"
 
 namespace kith {
 
@@ -43,21 +42,6 @@ std::optional<StartIndex> same_start(const Atlas& atlas, StartIndex start_index,
 
 namespace {
 
-// The robot's path in the other world, if it decides there as the alternative does.
-std::optional<Trajectory> flipped_path(const Atlas& atlas, const Contrast& contrast, StartIndex start) {
-  const auto [world, first] = atlas.id(start);
-  detail::Walk walk{atlas, world, first};
-  for (std::size_t t = 0; t < contrast.decisive; ++t) {
-    if (!walk.take_if_best(contrast.robot.actions[t])) return std::nullopt;
-  }
-  if (walk.is_over() || walk.is_best(contrast.robot.actions[contrast.decisive])) return std::nullopt;
-  if (!walk.take_if_best(contrast.alternative.actions[contrast.decisive])) return std::nullopt;
-  for (auto t = contrast.decisive + 1; t < contrast.alternative.actions.size(); ++t) {
-    if (!walk.take_if_best(contrast.alternative.actions[t])) break;
-  }
-  return walk.finished();
-}
-
 std::string thing_in_words(const GridMap& map, const OptionalGroup& group) {
   constexpr std::size_t kFew = 2;
   const auto& cells = group.cells;
@@ -70,47 +54,7 @@ std::string thing_in_words(const GridMap& map, const OptionalGroup& group) {
   return "the " + group.name + " at " + listed(places);
 }
 
-// "going up".
-std::string doing_instead(const std::string& action) {
-  for (const char* move : {"up", "down", "left", "right"}) {
-    if (action == move) return "going " + action;
-  }
-  if (action == "pickup") return "picking it up";
-  if (action == "dropoff") return "putting it down";
-  if (action == "exit") return "leaving";
-  return "'" + action + "'";
-}
-
 }  // namespace
-
-std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
-  const auto& domain = atlas.domain();
-  if (!domain.map() || !domain.is_exact()) return std::nullopt;  // without a map nothing says which worlds are alike
-  const auto here = atlas.id(contrast.start).mdp;
-  const auto groups = domain.optional_groups();
-  struct Candidate {
-    std::size_t num_groups, num_cells, world;
-    auto operator<=>(const Candidate&) const = default;
-  };
-  std::vector<Candidate> candidates;
-  for (std::size_t m = 0; m < domain.num_mdps(); ++m) {
-    if (m == here.value()) continue;
-    std::size_t cells = 0;
-    const auto toggled = toggled_groups(domain, here, MdpIndex{m});
-    for (const auto g : toggled) cells += groups[g].cells.size();
-    candidates.push_back({toggled.size(), cells, m});
-  }
-  std::sort(candidates.begin(), candidates.end());
-  for (const auto& candidate : candidates) {
-    const MdpIndex world{candidate.world};
-    const auto start = same_start(atlas, contrast.start, world);
-    if (!start) continue;
-    if (auto path = flipped_path(atlas, contrast, *start)) {
-      return Flip{*start, *std::move(path), toggled_groups(domain, here, world)};
-    }
-  }
-  return std::nullopt;
-}
 
 std::vector<std::size_t> toggled_groups(const Domain& domain, MdpIndex a, MdpIndex b) {
   const auto here = domain.present_things(a);
@@ -133,17 +77,6 @@ std::string difference_in_words(const Domain& domain, MdpIndex world, std::span<
   if (!added.empty()) text = "with " + listed(added);
   if (!removed.empty()) text += (text.empty() ? "" : " and ") + ("without " + listed(removed));
   return text;
-}
-
-std::string flip_in_words(const Atlas& atlas, const Contrast& contrast, const Flip& flip) {
-  const auto& domain = atlas.domain();
-  const auto [world, start] = atlas.id(flip.start);
-  const auto& names = domain.action_names();
-  const auto map = domain.map().value();  // otherwise nothing flips
-  const auto cell = map.state(world, flip.robot.states[contrast.decisive]).robot;
-  return difference_in_words(domain, world, flip.toggled) + " it " +
-         action_words(names[flip.robot.actions[contrast.decisive].value()]) + " at " + cell_text(map, cell) +
-         " rather than " + doing_instead(names[contrast.robot.actions[contrast.decisive].value()]);
 }
 
 }  // namespace kith
