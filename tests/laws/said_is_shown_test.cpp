@@ -71,11 +71,6 @@ std::size_t expect_said_is_shown(const Atlas& atlas) {
           EXPECT_EQ(one.reason.find("steps and"), std::string::npos);
         }
       }
-      for (const auto& bracket : one.brackets) {
-        EXPECT_TRUE(!bracket.low || is_within(shown, bracket, *bracket.low, 1));
-        EXPECT_TRUE(!bracket.high || is_within(shown, bracket, *bracket.high, -1));
-        said += 2;
-      }
       ++said;
     }
     for (const auto& test : component.tests) {
@@ -83,6 +78,20 @@ std::size_t expect_said_is_shown(const Atlas& atlas) {
       EXPECT_TRUE(seen.clip(atlas.constraints().half_spaces(atlas.one_step(test.start))));
       for (const auto& covered : test.covers) EXPECT_TRUE(seen.implies(covered)) << described(domain, covered);
       said += test.covers.size();
+    }
+  }
+  Cone seen = atlas.prior_cone();  // in the order in which people look
+  for (const bool is_first : {true, false}) {
+    for (const auto& component : lesson.components) {
+      for (const auto& one : component.demonstrations) {
+        if (one.is_first != is_first) continue;
+        EXPECT_TRUE(seen.clip(one.conveys));
+        for (const auto& bracket : one.brackets) {
+          EXPECT_TRUE(!bracket.low || is_within(seen, bracket, *bracket.low, 1));
+          EXPECT_TRUE(!bracket.high || is_within(seen, bracket, *bracket.high, -1));
+          said += 2;
+        }
+      }
     }
   }
   for (const auto& component : lesson.components) {

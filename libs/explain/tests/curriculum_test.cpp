@@ -73,23 +73,17 @@ TEST(Curriculum, ClaimsNothingThatDoesNotHold) {
   }
 }
 
-// Each start once, tests that tell something, and what is said to be known by then follows from them.
-TEST(Curriculum, BeginsWithAFewBoardsAndClaimsNoMoreThanTheyTell) {
+// Each start once, and tests that tell something.
+TEST(Curriculum, BeginsWithAFewBoards) {
   for (const auto* name : {"item-delivery", "navigation"}) {
     const auto& atlas = atlas_of(name);
-    const auto reference = reference_feature(atlas.domain(), atlas.knowledge_components());
     std::set<StartIndex> starts;
-    auto known = atlas.domain().prior();
     for (const auto& component : make_curriculum(atlas).components) {
       for (const auto& test : component.tests) {
         EXPECT_TRUE(!test.is_first || (test.is_shortest_wrong && starts.insert(test.start).second));
       }
       for (const auto& shown : component.demonstrations) {
-        if (!shown.is_first) continue;
-        EXPECT_TRUE(starts.insert(shown.start).second);
-        known.insert(known.end(), shown.conveys.begin(), shown.conveys.end());
-        const auto& features = atlas.knowledge_components()[component.component].features;
-        EXPECT_EQ(shown.brackets, brackets(atlas.domain(), known, features, reference));
+        EXPECT_TRUE(!shown.is_first || starts.insert(shown.start).second);
       }
     }
     EXPECT_GE(starts.size(), 8u);
