@@ -1,6 +1,6 @@
 // Where the reader says what the robot will do: by driving it or, where nobody can, by its first move.
 import type { JSX } from 'preact';
-import { useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import { kMoves } from '../shared/board/geometry';
 import type { Intent } from '../shared/board/board';
 import type { Frame, Path } from '../shared/board/types';
@@ -8,6 +8,7 @@ import { BoardPane, Things } from '../shared/play/board_pane';
 import { BoardAlone, Driver } from '../shared/play/driver';
 import { useDrive } from '../shared/play/drive';
 import { Button } from '../shared/play/button';
+import { actionOfArrow, isElsewhere } from '../shared/play/keys';
 import { Pad } from '../shared/play/pad';
 import { StateCard } from '../shared/play/steps';
 import { actionLabel, capitalised, t } from '../shared/texts';
@@ -90,6 +91,16 @@ const intentsOf = ({ robot }: Frame, action: string | null | undefined): Intent[
 function Moving({ shown, submit, onGuess, legend, worlds, board, world, skipped }: DrivingProps): JSX.Element {
   const [chosen, setChosen] = useState<number | null>(null);
   const name = world.actions[chosen ?? -1]?.name ?? '';
+  useLayoutEffect(() => {
+    const pressed = (event: KeyboardEvent): void => {
+      const action = isElsewhere(event) ? undefined : actionOfArrow(world.actions, event.key);
+      if (action === undefined || world.after(shown.state, action) === null) return;
+      event.preventDefault(); // the page must not scroll
+      setChosen(action);
+    };
+    document.addEventListener('keydown', pressed);
+    return () => document.removeEventListener('keydown', pressed);
+  }, []);
   const done = (): void => {
     if (chosen === null) return;
     const states = world.walk(shown.state, [chosen]);

@@ -4,7 +4,7 @@ import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { Legend } from '../board/legend';
 import type { Frame, Place, PlayBoard } from '../board/types';
 import type { Drive, Outcome } from './drive';
-import { isPressing, isElsewhere } from './keys';
+import { actionOfArrow, isArrow, isElsewhere, isPressing } from './keys';
 import { t } from '../texts';
 import { aroundText, isJobDone, stepText } from './words';
 import type { World } from './world';
@@ -191,13 +191,6 @@ interface KeyOptions {
   area: { current: HTMLElement | null };
 }
 
-const kArrows: Record<string, [number, number]> = {
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-};
-
 // Arrow keys work wherever the focus is, except in fields; Space and Backspace only where nothing else wants them.
 function useKeys(options: KeyOptions): void {
   const current = useRef(options);
@@ -209,11 +202,11 @@ function useKeys(options: KeyOptions): void {
       const { world, drive, off, tell, area } = current.current;
       const isUndo = event.key === 'Backspace' || (event.ctrlKey && event.key.toLowerCase() === 'z');
       if (event.ctrlKey && !isUndo) return;
-      const shift = kArrows[event.key];
+      const isMove = isArrow(event.key);
       const isSpace = event.key === ' ' && !isPressing(event);
       const isOnBoard = area.current?.contains(event.target as Node) || event.target === document.body;
       const isHeading = event.target instanceof HTMLElement && event.target.matches('h1, h2');
-      if (!shift && !isUndo && !(isSpace && (isOnBoard || isHeading))) return;
+      if (!isMove && !isUndo && !(isSpace && (isOnBoard || isHeading))) return;
       event.preventDefault(); // the page must not scroll
       if (off || (event.repeat && performance.now() - last < kRepeatMs)) return;
       last = performance.now();
@@ -221,9 +214,7 @@ function useKeys(options: KeyOptions): void {
         drive.undo();
         return;
       }
-      const action = shift
-        ? world.actions.find((one) => one.shift?.[0] === shift[0] && one.shift[1] === shift[1])?.index
-        : spaceAction(world, drive);
+      const action = isMove ? actionOfArrow(world.actions, event.key) : spaceAction(world, drive);
       if (action !== undefined && action !== null) tell(drive.act(action));
       else tell('blocked');
     };
