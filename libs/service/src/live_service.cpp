@@ -84,8 +84,9 @@ std::int64_t ServiceState::links_expire_us() const { return now_us() + options.t
 
 void ServiceState::save(StoreBatch batch, std::function<void(bool)> done) {
   busy.begin();
-  store.write(std::move(batch), [this, done = std::move(done)](bool saved) {
+  store.write(std::move(batch), [this, done = std::move(done)](bool saved) mutable {
     done(saved);
+    done = nullptr;  // it may hold a room, which has to go before the strands do
     busy.end();
   });
 }

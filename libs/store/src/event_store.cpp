@@ -75,9 +75,11 @@ void EventStore::run() {
       group = std::exchange(waiting_, {});
     }
     finish(group);
+    const auto finished = group.size();
+    group.clear();
     {
       const std::lock_guard lock{mutex_};
-      unfinished_ -= group.size();
+      unfinished_ -= finished;
     }
     changed_.notify_all();
   }

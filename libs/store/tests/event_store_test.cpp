@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -55,10 +56,11 @@ TEST(EventStore, RefusesAFolderThatIsBeingServed) {
   const ScratchFolder scratch;
   EventStore store{scratch.path(), identity_of(), no_time};
   EXPECT_EQ(id_of_error([&] { EventStore other{scratch.path(), identity_of(), no_time}; }), "E1610");
-  bool saved = false;
-  store.write(batch_of({event_of(1, 1)}, {room_of(1)}), [&](bool ok) { saved = ok; });
+  auto saved = std::make_shared<bool>(false);
+  store.write(batch_of({event_of(1, 1)}, {room_of(1)}), [saved](bool ok) { *saved = ok; });
   store.flush();
-  EXPECT_TRUE(saved) << "the first is not affected";
+  EXPECT_TRUE(*saved) << "the first is not affected";
+  EXPECT_EQ(saved.use_count(), 1) << "what waits for a batch is let go before flush() returns";
 }
 
 TEST(EventStore, DoesNotLetOneWrongBatchTakeOthersWithIt) {

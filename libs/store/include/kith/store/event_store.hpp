@@ -47,7 +47,7 @@ class EventStore {
 
   /// Hands in a batch. Batches are saved in the order in which they come. From any thread.
   void write(StoreBatch batch, Done done);
-  /// Waits until nothing is waiting.
+  /// Waits until nothing is waiting, and what waited is let go.
   void flush();
   [[nodiscard]] StoreCounters counters() const;
 
