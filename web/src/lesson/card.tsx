@@ -33,7 +33,7 @@ export function CardView({ card, place, guess, isChoice, onGuess, next, ...conte
   return (
     <article class={`card ${kind === 'Example' ? 'demonstration' : 'test'}`}>
       <p class="kicker">
-        {kind}, board {place}
+        {kind === 'New board' ? kind : `${kind}, board`} {place}
         {shown.world_name && `: ${shown.world_name}`}
       </p>
       {seen ? (

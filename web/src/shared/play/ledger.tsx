@@ -27,9 +27,9 @@ export interface Column {
   endless?: boolean[]; // what the path goes on counting for ever
 }
 
-// Whether what is counted is the name of something that this map has nowhere.
+// Whether what is counted is called after something that this map has nowhere: "orange tile" after "orange".
 function isAbsent({ domain: { legend = [] }, map = [] }: PlayBoard, { one }: Counted): boolean {
-  const symbols = legend.filter(({ name, parts = [] }) => name === one || parts.some((part) => part.name === one)).map(({ symbol }) => symbol);
+  const symbols = legend.filter(({ name, parts = [] }) => [name, ...parts.map((part) => part.name)].some((all) => `${one} `.startsWith(`${all} `))).map(({ symbol }) => symbol);
   return symbols.length > 0 && !map.some((row) => symbols.some((symbol) => row.includes(symbol)));
 }
 
