@@ -2,6 +2,7 @@
 
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace kith {
 
@@ -19,7 +20,7 @@ LearnerModel like_bayesian(std::string_view kind, std::string_view description, 
   model.description = description;
   model.parameters = parameters;
   model.fitted = fitted;
-  model.make = make;
+  model.make = std::move(make);
   model.describe = [](const ParameterValues& values, std::span<const double> traits) {
     auto text = bayesian_model().describe(values, traits);
     for (std::size_t i = bayesian_model().parameters.size(); i < values.declared().size(); ++i) {

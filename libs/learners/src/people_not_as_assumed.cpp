@@ -91,7 +91,7 @@ class Guesser final : public Learner {
       return all;
     }
     for (const auto& weights : people_) {
-      if (auto answer = behaviours.answer(test, behaviours.locate(weights))) all.push_back(*std::move(answer));
+      if (auto answer = behaviours.answer(test, behaviours.locate(weights))) all.push_back(*answer);
       if (path_ == Path::kOwn) break;
     }
     return all;
@@ -166,7 +166,7 @@ LearnerModel kind_row(std::string_view kind, decltype(LearnerModel::make) make) 
   auto model = bayesian_model();
   model.kind = kind;
   model.has_ability = false;
-  model.make = make;
+  model.make = std::move(make);
   model.describe = nullptr;
   return model;
 }

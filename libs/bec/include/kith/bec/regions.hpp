@@ -33,6 +33,7 @@ struct RegionEffect {
 class Regions {
  public:
   explicit Regions(const ConstraintTable& table) : table_{&table} {}
+  ~Regions() = default;
   Regions(const Regions&) = delete;
   Regions& operator=(const Regions&) = delete;
 
