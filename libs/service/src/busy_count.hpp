@@ -2,7 +2,9 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <mutex>
+#include <utility>
 
 namespace kith {
 
@@ -19,6 +21,16 @@ class BusyCount {
       --count_;
     }
     changed_.notify_all();
+  }
+  // The job, under way until it has been called and what it holds, which may need what goes after us, was let go.
+  template <typename... Arguments>
+  [[nodiscard]] auto during(std::function<void(Arguments...)> job) {
+    begin();
+    return [this, job = std::move(job)](Arguments... arguments) mutable {
+      job(arguments...);
+      job = nullptr;
+      end();
+    };
   }
   void wait_for_none() {
     std::unique_lock lock{mutex_};

@@ -83,12 +83,7 @@ ServiceState::ServiceState(std::shared_ptr<const LiveStudy> live_study, LiveServ
 std::int64_t ServiceState::links_expire_us() const { return now_us() + options.token_hours * 3600 * kSecond; }
 
 void ServiceState::save(StoreBatch batch, std::function<void(bool)> done) {
-  busy.begin();
-  store.write(std::move(batch), [this, done = std::move(done)](bool saved) mutable {
-    done(saved);
-    done = nullptr;  // it may hold a room, which has to go before the strands do
-    busy.end();
-  });
+  store.write(std::move(batch), busy.during(std::move(done)));
 }
 
 // Before there is anybody: what is loaded needs no strand. Rooms are rebuilt last, by others.

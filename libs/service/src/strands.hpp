@@ -25,14 +25,7 @@ class Strands {
 
   [[nodiscard]] Strand make() { return asio::make_strand(threads_.io()); }
   // From any thread, jobs included. Jobs must not throw.
-  void post(const Strand& strand, Job job) {
-    busy_.begin();
-    asio::post(strand, [this, job = std::move(job)]() mutable {
-      job();
-      job = nullptr;
-      busy_.end();
-    });
-  }
+  void post(const Strand& strand, Job job) { asio::post(strand, busy_.during(std::move(job))); }
   // Drops what has not begun.
   void stop() { threads_.stop(); }
 

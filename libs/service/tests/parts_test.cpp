@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <boost/beast/zlib/inflate_stream.hpp>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "admission.hpp"
+#include "busy_count.hpp"
 #include "gzip.hpp"
 #include "json_depth.hpp"
 #include "request_reader.hpp"
@@ -17,6 +19,17 @@
 
 namespace kith {
 namespace {
+
+TEST(BusyCount, LetsGoOfWhatAJobHoldsBeforeItIsDone) {
+  BusyCount busy;
+  const auto held = std::make_shared<bool>(false);
+  auto counted = busy.during(std::function<void(bool)>{[held](bool saved) { *held = saved; }});
+  EXPECT_EQ(held.use_count(), 2);
+  counted(true);
+  busy.wait_for_none();
+  EXPECT_TRUE(*held);
+  EXPECT_EQ(held.use_count(), 1) << "although what was called is still there";
+}
 
 TEST(JsonDepth, CountsBracketsOutsideOfStrings) {
   EXPECT_TRUE(json_nests_within("", 0));
