@@ -41,7 +41,7 @@ function addressOf(name, lesson) {
   writeFileSync(file, fillPage(template, JSON.stringify(lesson)));
   return pathToFileURL(file).href;
 }
-// A part whose boards start in many places, and whose tests the shortest path answers.
+// A part of many boards, of which one comes first.
 const [part] = sample.components;
 const copies = (shown, n) => Array.from({ length: n }, (_, i) => ({ ...shown, world: 1000 + i, first: i === 0 }));
 const long = { ...sample, components: [part, { ...part, number: 2, demonstrations: copies(part.demonstrations[0], 11), tests: [] }] };

@@ -77,17 +77,16 @@ interface Pair {
   reason: string;
 }
 
-// Where somebody's path leaves the robot's. Where chance has a part, runs differ by themselves: then whether it begins
-// with another move.
-const departureOf = (shown: Demonstration | Test, mine: Path): number | null =>
-  shown.runs && shown.frames[0]?.action === mine.frames[0]?.action ? null : partingOf(shown, mine);
+// Whether somebody's path is another one. Where chance has a part, runs differ by themselves: then by its first move.
+const differs = (shown: Demonstration | Test, mine: Path): boolean =>
+  shown.runs ? shown.frames[0]?.action !== mine.frames[0]?.action : partingOf(shown, mine) !== null;
 
 // First with one's own; what the board was chosen for, if that is something else, with the path that shows it.
 function pairsOf(context: Context, shown: Demonstration | Test, { mine, verdict }: Guess): Pair[] {
   const isWrong = mine !== null && !verdict?.isRight;
   const why = isWrong ? whyNot(context, shown, mine) : '';
   const title = t(`feedback.title.${!mine ? 'none' : isWrong ? 'wrong' : 'right'}`);
-  const isDrawn = mine !== null && (isWrong || (!shown.runs && departureOf(shown, mine) !== null));
+  const isDrawn = mine !== null && (isWrong || (!shown.runs && differs(shown, mine)));
   const own: Pair = { title, other: isDrawn ? mine : null, isMine: true, at: isDrawn ? partingOf(shown, mine) : null, reason: why };
   if (!isExample(shown)) return [own];
   const taught: Pair = { title: isDrawn ? 'Now this one' : title, other: shown.alternative, isMine: false, at: shown.decisive?.frame ?? null, reason: shown.reason };
@@ -122,7 +121,7 @@ function Seen({ shown, guess, isStill, next, ...context }: Context & Pick<Props,
   const board = playBoard(domain, shown);
   const isLast = beat === pairs.length - 1;
   const word = !guess.mine ? 'none' : guess.verdict?.isRight ? 'right' : 'wrong';
-  const reason = <Reason reason={pair.reason} shown={shown} word={word} isAsGood={beat === 0 && word === 'right' && guess.mine !== null && departureOf(shown, guess.mine) !== null} />;
+  const reason = <Reason reason={pair.reason} shown={shown} word={word} isAsGood={beat === 0 && word === 'right' && guess.mine !== null && differs(shown, guess.mine)} />;
   const goOn = (
     <>
       {isLast && isExample(shown) && <Brackets brackets={shown.brackets} counted={domain.counted} />}

@@ -14,7 +14,7 @@ export interface Sentence {
 export interface Driven extends Board {
   state: number;
   counts: number[];
-  first?: boolean; // one of those that a lesson begins with
+  first: boolean; // one of those that a lesson begins with
 }
 
 export interface Demonstration extends Driven {

@@ -93,7 +93,8 @@ function Moving({ shown, submit, onGuess, legend, worlds, board, world, skipped 
   const name = world.actions[chosen ?? -1]?.name ?? '';
   useLayoutEffect(() => {
     const pressed = (event: KeyboardEvent): void => {
-      const action = isElsewhere(event) ? undefined : actionOfArrow(world.actions, event.key);
+      if (isElsewhere(event) || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
+      const action = actionOfArrow(world.actions, event.key);
       if (action === undefined || world.after(shown.state, action) === null) return;
       event.preventDefault(); // the page must not scroll
       setChosen(action);
