@@ -11,7 +11,7 @@
 namespace kith {
 
 /// The smallest number that people keep in mind that is at least n (`up`), or the largest that is at most n: whole
-/// numbers up to 20, then multiples of 5 up to 100, then of 10.
+/// numbers up to 20, then multiples of 5 up to 100, then of 10. @param n  >= 0.
 [[nodiscard]] std::int64_t round_number(std::int64_t n, bool up) noexcept;
 
 /// What can be said in small numbers about a constraint on reward weights.
