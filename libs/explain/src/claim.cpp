@@ -103,7 +103,7 @@ class ClaimReader {
     return difference(left, sign * first, right, sign * second);
   }
 
-  HalfSpace difference(const Amounts& left, int first, const Amounts& right, int second) const {
+  [[nodiscard]] HalfSpace difference(const Amounts& left, int first, const Amounts& right, int second) const {
     IntegerVector normal(domain_.num_features());
     for (std::size_t k = 0; k < normal.size(); ++k)
       normal[k] = first * left.counts[k] * right.parts - second * right.counts[k] * left.parts;

@@ -37,7 +37,7 @@ std::vector<std::string> spelled_out(const std::string& phrase) {
 }
 
 constexpr std::pair<Meaning, const char*> kTable[] = {
-#define WORDS(meaning, phrases) {Meaning::meaning, phrases},
+#define KITH_WORDS(meaning, phrases) {Meaning::meaning, phrases},
 #include "question_words.def"
 };
 

@@ -11,7 +11,7 @@ namespace kith::detail {
 
 // What a word or phrase can mean in a question.
 enum class Meaning : std::uint8_t {
-#define WORDS(meaning, phrases) meaning,
+#define KITH_WORDS(meaning, phrases) meaning,
 #include "question_words.def"
 };
 
