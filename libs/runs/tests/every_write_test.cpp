@@ -300,11 +300,12 @@ bool acts(const Story& story, const fs::path& folder, bool apart) {
   return WEXITSTATUS(status) == 0;
 }
 
-// One trial: the n-th call is struck, and afterwards the same is done in peace. @return whether there was such a call.
-bool survives(const Story& story, Strike strike, std::size_t n) {
+// One trial, which begins with what is in `ready`: the n-th call is struck, and afterwards the same is done in peace.
+// @return whether there was such a call.
+bool survives(const Story& story, const fs::path& ready, Strike strike, std::size_t n) {
   const ScratchFolder scratch;
   const auto folder = scratch / "run";
-  story.before(folder);
+  fs::copy(ready, scratch.path(), fs::copy_options::recursive);
   const auto before = tables_if_any(folder);
   calls().strike = strike;
   calls().count = calls().struck = saved() = 0;
@@ -337,9 +338,9 @@ bool survives(const Story& story, Strike strike, std::size_t n) {
   return was_struck;
 }
 
-std::size_t calls_of(const Story& story) {
+std::size_t calls_of(const Story& story, const fs::path& ready) {
   const ScratchFolder scratch;
-  story.before(scratch / "run");
+  fs::copy(ready, scratch.path(), fs::copy_options::recursive);
   calls().count = 0;
   EXPECT_TRUE(acts(story, scratch / "run", false));
   return calls().count;
@@ -349,11 +350,13 @@ std::size_t calls_of(const Story& story) {
 void sweep(std::span<const Strike> strikes, std::size_t first, std::size_t stride) {
   std::size_t offset = first;
   for (const auto& story : stories()) {
-    const auto most = calls_of(story);
+    const ScratchFolder ready;
+    story.before(ready / "run");
+    const auto most = calls_of(story, ready.path());
     EXPECT_GT(most, 20u) << story.name;
     std::size_t struck = 0, tried = 0;
     for (auto n = 1 + offset++ % stride; n <= most && !::testing::Test::HasFailure(); n += stride) {
-      struck += survives(story, strikes[(first + tried++) % strikes.size()], n) ? 1u : 0u;
+      struck += survives(story, ready.path(), strikes[(first + tried++) % strikes.size()], n) ? 1u : 0u;
     }
     EXPECT_GT(struck, tried / 2) << story.name;
   }
