@@ -63,7 +63,9 @@ function(kith_test_program name)
   if(KITH_SANITIZE)
     # Seconds otherwise, minutes here; what they call is also called by quick tests.
     string(APPEND slow_suites ":Recovery.*:SolidAngleInDimensions.IsAdditive*:SolidAngleInDimensions.AgreesWithCounting*"
-           ":ConeSampler.CoversMore*:ConeSampler.DrawsUniformly*")
+           ":ConeSampler.CoversMore*:ConeSampler.DrawsUniformly*:RandomEndlessPaths.*:WholePaths.LeaveHardlyAny*"
+           ":*EndlessPaths.*/rescue*:*EndlessPaths.*/warehouse:EndlessRobot.AreSaidToMiss*:*EndlessRobots.*/co*"
+           ":*EndlessRobots.*/item*:Told.*:JudgedPeople.*:AnyDomain.DiscountedOnes*:TeamExam.ConfirmsTheStopRule*")
   endif()
   set(quick "-${slow_suites}")
   set(discovery TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES)
