@@ -228,8 +228,10 @@ std::string page_text(const Analysis& analysis, const AnalyzeOptions& options, c
   const bool compares = !options.contrasts.empty() || !options.by.empty();
   std::vector<const Finding*> all;
   for (const auto& finding : analysis.findings) all.push_back(&finding);
-  const auto others = std::ranges::stable_partition(all, [](const auto* one) { return is_on_the_page(*one); });
-  const auto most = options.brief || others.size() == all.size() ? all.size() : all.size() - others.size();
+  const auto others =
+      std::stable_partition(all.begin(), all.end(), [](const auto* one) { return is_on_the_page(*one); });
+  const auto most =
+      static_cast<std::size_t>((options.brief || others == all.begin() ? all.end() : others) - all.begin());
   auto room = (options.brief ? 25 : 45) - num_lines(text) - num_lines(left_text(all, 10, analysis, options.brief));
   const auto fits = [&](const std::string& part) {
     if (num_lines(part) > room && (options.brief || !compares)) return false;

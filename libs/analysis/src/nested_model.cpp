@@ -160,8 +160,8 @@ Estimable<NestedModel> fit_nested_model(std::span<const double> response, std::s
     levels.push_back(drop_unused(group));
   }
   const auto made = make_cell_design(response.size(), factors, terms);
-  if (auto fault = fault_of(levels, response.size()); !response.empty() && !fault.empty())
-    return Result::impossible(std::move(fault));
+  if (const auto fault = fault_of(levels, response.size()); !response.empty() && !fault.empty())
+    return Result::impossible(fault);
   if (!made) return Result::impossible(made.reason());
   const auto& design = *made;
 

@@ -317,27 +317,27 @@ ParameterGrid grid_of(const FitOptions& options) {
                    options.num_gains);
 }
 
-FitReport fit_learners(const ResponseLogs& given, const FitOptions& options) {
+FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
   constexpr std::size_t kFewest = 3;
-  if (given.people.size() < kFewest) {
-    too_few("too few people: a population needs at least 3, and there are " + std::to_string(given.people.size()));
+  if (logs.people.size() < kFewest) {
+    too_few("too few people: a population needs at least 3, and there are " + std::to_string(logs.people.size()));
   }
-  if (options.num_types == 0) static_cast<void>(labelled_members(given));  // complain before the work
+  if (options.num_types == 0) static_cast<void>(labelled_members(logs));  // complain before the work
   // By what they did, so that neither their names nor the order of the files count.
   std::vector<std::pair<std::string, std::size_t>> order;
-  for (std::size_t i = 0; i < given.people.size(); ++i) order.emplace_back(lessons_and_answers(given.people[i]), i);
+  for (std::size_t i = 0; i < logs.people.size(); ++i) order.emplace_back(lessons_and_answers(logs.people[i]), i);
   std::sort(order.begin(), order.end());
-  auto logs = given;
-  for (std::size_t i = 0; i < order.size(); ++i) logs.people[i] = given.people[order[i].second];
+  auto in_order = logs;
+  for (std::size_t i = 0; i < order.size(); ++i) in_order.people[i] = logs.people[order[i].second];
   const auto table = log_likelihoods(
-      logs, grid_of(options),
+      in_order, grid_of(options),
       {.replicates = options.replicates, .seed = options.seed, .slip = options.slip, .parallel = options.parallel});
   if (!table.complete) {
     FitReport stopped;
     stopped.complete = false;
     return stopped;
   }
-  auto report = Fitting{logs, options, table}.run();
+  auto report = Fitting{in_order, options, table}.run();
   auto people = report.people;
   for (std::size_t i = 0; i < order.size(); ++i) people[order[i].second] = std::move(report.people[i]);
   report.people = std::move(people);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -92,7 +93,7 @@ template <typename T>
 
 template <typename T>
 bool is_unset(const T& value) {
-  if constexpr (requires { value == value; }) {
+  if constexpr (std::equality_comparable<T>) {
     return value == T{};
   } else {
     return false;

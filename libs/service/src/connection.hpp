@@ -41,7 +41,7 @@ class Connection {
   std::string last_view;
 
   void send(const Json& frame) const { socket->send(std::make_shared<const std::string>(frame.dump())); }
-  void answer(const std::string& id, const std::optional<Refusal>& refusal) const;
+  void answer(const std::string& message, const std::optional<Refusal>& refusal) const;
   // Sends a view unless it is the last one, apart from the time.
   void show(Json view);
   // Says why, in a frame for the page, and closes: the page gives up.

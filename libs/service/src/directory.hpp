@@ -76,7 +76,7 @@ class Directory {
 
   void tick();
   // Adds what facilitators see of people without asking rooms.
-  void fill(WatchedRooms& rooms) const;
+  void fill(WatchedRooms& watched) const;
   [[nodiscard]] std::size_t num_unsaved() const;
 
  private:
@@ -98,7 +98,7 @@ class Directory {
   void select(const ConnectionPtr& connection, const Json& body, const ServiceLog::Reply& reply);
   void ask_room(const Json& body, const std::string& type, const std::string& id, const ServiceLog::Reply& reply);
   void revoke_link(const std::string& id, const Json& body, const ServiceLog::Reply& reply);
-  void tell_presence(const Place& place, const char* type);
+  void tell_presence(const Place& place, const char* type) const;
   void check_presence(std::int64_t now);
   [[nodiscard]] std::optional<std::string> link_of(const Place& place) const;
 

@@ -121,7 +121,7 @@ void Directory::beat(const Connection& connection) {
   if (std::exchange(contact.is_away, false)) tell_presence(place, "present");
 }
 
-void Directory::tell_presence(const Place& place, const char* type) {
+void Directory::tell_presence(const Place& place, const char* type) const {
   const auto room = room_of(place.first);
   if (!room) return;
   room->post([room, seat = place.second, type] {

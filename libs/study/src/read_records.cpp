@@ -83,13 +83,13 @@ class CellReader {
     half_spaces = *std::move(parsed);
   }
   void read(const std::string& text, const RecordRow& row, IntegerVector& counts) const {
-    auto parsed = detail::parse_counts(text, num_features(), study_->variants.front().count_scale);
+    const auto parsed = detail::parse_counts(text, num_features(), study_->variants.front().count_scale);
     if (!parsed)
       row.refuse(
           "E0621",
           "'" + column_.name + "' does not hold " + std::to_string(num_features()) + " feature counts such as 0 1 5",
           kRestore);
-    counts = *std::move(parsed);
+    counts = *parsed;
   }
   [[nodiscard]] std::size_t num_features() const { return study_->variants.front().num_features; }
 
