@@ -287,7 +287,7 @@ struct OpenSession {
   EventFile file;
   std::uint64_t service_seq = 0;  // of the last event outside of rooms
 
-  void finish(Json body, StoreBatch log, std::span<const StoredEvent> changed, std::int64_t now_us) {
+  void finish(const Json& body, StoreBatch log, std::span<const StoredEvent> changed, std::int64_t now_us) {
     log.events.push_back({.room = 0,
                           .seq = service_seq + 1,
                           .at_us = now_us,
