@@ -151,7 +151,6 @@ fuzz() {
 
 tidy() {  # libraries and command line, as they are compiled in build/release
   run-clang-tidy -p build/release -quiet -j "$jobs" -extra-arg=-Wno-unknown-warning-option \
-    -extra-arg=-Wno-ignored-optimization-argument \
     '^(?!.*(_tests\.dir|_verify_|/tests/|/web/|/python/)).*/(libs|apps)/' >&2 || die "clang-tidy found something"
 }
 

@@ -300,8 +300,7 @@ bool acts(const Story& story, const fs::path& folder, bool apart) {
   return WEXITSTATUS(status) == 0;
 }
 
-// One trial, which begins with what is in `ready`: the n-th call is struck, and afterwards the same is done in peace.
-// @return whether there was such a call.
+// From what is in `ready`: call n is struck, then the same is done in peace. @return whether there was such a call.
 bool survives(const Story& story, const fs::path& ready, Strike strike, std::size_t n) {
   const ScratchFolder scratch;
   const auto folder = scratch / "run";

@@ -14,13 +14,10 @@ namespace kith::testing {
 
 /// The built-in study "quick", with overrides.
 [[nodiscard]] inline StudyReading quick_study(const std::vector<std::string>& overrides = {}) {
-  const auto read = [](const std::vector<std::string>& with) {
-    auto reading = load_study("quick", {with});
-    if (!reading.study) throw Error{reading.diagnostics};
-    return reading;
-  };
-  static const StudyReading kAsItIs = read({});
-  return overrides.empty() ? kAsItIs : read(overrides);
+  static const StudyReading kAsItIs = load_study("quick", {});
+  auto reading = overrides.empty() ? kAsItIs : load_study("quick", {overrides});
+  if (!reading.study) throw Error{reading.diagnostics};
+  return reading;
 }
 
 /// The tables in a run folder, by name.
