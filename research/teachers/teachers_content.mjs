@@ -205,7 +205,7 @@ export function makeContent(runs) {
     'releasing-costs-knowledge': () =>
       Object.keys(CREWS).every((crew) => {
         const [all, released] = [`${crew} together`, `${crew} together, release = "posterior"`];
-        return value(released, 'joint', 'person periods') < 0.67 * value(all, 'joint', 'person periods') && value(released, 'joint', 'p_BEC') < value(all, 'joint', 'p_BEC') - 0.05;
+        return value(released, 'joint', 'person periods') < 0.67 * value(all, 'joint', 'person periods') && value(released, 'joint', 'p_BEC') < value(all, 'joint', 'p_BEC') - 0.02;
       }),
   };
   // The smallest and the largest value of a team; of all strategies without one.
