@@ -6,8 +6,6 @@
 
 namespace kith {
 
-using Kind = ResultKind;
-
 std::string pairs_caption(const std::string& factor, const std::string& by, bool is_family) {
   std::string how = is_family ? "Tukey-Kramer" : "t test";
   if (!by.empty()) how = "at each level of " + by + (is_family ? "; " + how : "");
@@ -71,17 +69,17 @@ std::string degrees_text(const TermResult& test, TestFamily::Residuals residuals
 }
 
 std::vector<ShownColumn<TermResult>> with_effect_columns(std::vector<ShownColumn<TermResult>> columns) {
-  columns.push_back(show(&TermResult::effect, "partial eta squared", Kind::kFraction));
-  columns.push_back(show(&TermResult::low, "lower limit", Kind::kFraction));
-  columns.push_back(show(&TermResult::high, "upper limit", Kind::kFraction));
+  columns.push_back(show(&TermResult::effect, "partial eta squared", ResultKind::kFraction));
+  columns.push_back(show(&TermResult::low, "lower limit", ResultKind::kFraction));
+  columns.push_back(show(&TermResult::high, "upper limit", ResultKind::kFraction));
   return columns;
 }
 
 ResultTable anova_table(const std::string& caption, const TestFamily& family, const AnovaTable& table) {
   const std::vector<ShownColumn<TermResult>> columns{
-      show(&TermResult::subject, "term", Kind::kText), show(&TermResult::df, "df", Kind::kCount),
+      show(&TermResult::subject, "term", ResultKind::kText), show(&TermResult::df, "df", ResultKind::kCount),
       show(&TermResult::sum_of_squares, "sum of squares"), show(&TermResult::statistic, "F"),
-      show(&TermResult::p, "p-value", Kind::kP)};
+      show(&TermResult::p, "p-value", ResultKind::kP)};
   auto result = shown(caption, family.tests, with_effect_columns(columns));
 
   // Residuals have degrees of freedom and a sum of squares; nothing else applies to them.
