@@ -136,8 +136,7 @@ asan() {  # LAYER...
     part "ASan: tests" run_tests asan -L "$(labels_of "$@")"
 }
 slow_tests() {
-  say
-  say "== slow tests in build/release"
+  say $'\n== slow tests in build/release'
   # validation.error_rates runs FalsePositivesSlow itself.
   ctest --test-dir build/release -L '^slow$' -E '^analysis\.FalsePositivesSlow' --output-on-failure -j "$jobs" ||
     die "slow tests failed"

@@ -91,8 +91,7 @@ class Store {
   }
 
   async tell(statements: object[], isLast = false): Promise<void> {
-    if (statements.length === 0) return;
-    await this.request('statements', { method: 'POST', body: JSON.stringify(statements), headers: { 'Content-Type': 'application/json' }, keepalive: isLast });
+    if (statements.length > 0) await this.request('statements', { method: 'POST', body: JSON.stringify(statements), headers: { 'Content-Type': 'application/json' }, keepalive: isLast });
   }
 }
 
@@ -151,19 +150,24 @@ export async function openCmi5(): Promise<Door | null> {
   const launch = JSON.parse(await store.state('LMS.LaunchData')) as LaunchData;
   const isNormal = launch.launchMode === 'Normal'; // others may only look
   const statements = new Statements(store, launch);
-  const kept = await store.state('kith');
-  let told: Told = { ...kNothing, hasPassed: false, hasCompleted: false, ...(kept ? (JSON.parse(kept) as Partial<Told>) : {}) };
   const session = String(launch.contextTemplate.extensions?.[kSession]);
   const terminated = `visit.terminated.${session}`;
   const failed = `visit.failed.${session}`; // told of a failure, a visit cannot be told of a pass any more
   await store.readPreferences();
-  const initialized = `visit.initialized.${session}`;
-  if (!recall(initialized)) {
-    await store.tell([statements.of('initialized', { isDefined: true })]); // once a session
-    keep(initialized, true);
-  }
-  let waiting: object[] = []; // statements that were not taken yet: the same ones are sent again
+  const first = recall<object>(`visit.initialized.${session}`) ?? statements.of('initialized', { isDefined: true });
+  keep(`visit.initialized.${session}`, first); // the same one after a reload, which the store knows
+  await store.tell([first]);
+  // What has been told, with the statements that may not have been taken yet: the same ones are sent again.
+  const unsent = `visit.unsent.${session}`;
+  const kept = JSON.parse((await store.state('kith')) || '{}') as Partial<Told>;
+  let { told, waiting } = recall<{ told: Told; waiting: object[] }>(unsent) ?? { told: { ...kNothing, hasPassed: false, hasCompleted: false, ...kept }, waiting: [] };
   let isFinished = false;
+  const send = async (): Promise<void> => {
+    keep(unsent, { told, waiting });
+    await store.tell(waiting);
+    await store.setState('kith', JSON.stringify(told));
+    waiting = [];
+  };
   const judge = (progress: Progress): void => {
     const scaled = scoreOf(progress) ?? 0;
     const success = launch.masteryScore === undefined ? isLearned(progress) : scaled >= launch.masteryScore;
@@ -195,15 +199,13 @@ export async function openCmi5(): Promise<Door | null> {
       );
       if (progress.isFinished) judge(progress);
       told = { ...told, log: log ?? told.log, predictions: predictions.length, components: components.map(({ status }) => status) };
-      await store.tell(waiting);
-      waiting = [];
-      await store.setState('kith', JSON.stringify(told));
+      await send();
       isFinished = progress.isFinished;
     },
     restart: async () => {
       told = { ...told, ...kNothing };
       isFinished = false;
-      if (isNormal && !recall(terminated)) await store.setState('kith', JSON.stringify(told));
+      if (isNormal && !recall(terminated)) await send();
     },
     // A page that is loaded again says more, so that only what is over ends with the page.
     leave: () => {

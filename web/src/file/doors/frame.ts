@@ -2,8 +2,7 @@
 import { isLearned, scoreOf, type Progress } from './door';
 
 export function tellFrame(origins: string[], progress: Progress, log: unknown): void {
-  const message = { type: 'kith-lesson', event: progress.isFinished ? 'finished' : 'progress', score: scoreOf(progress), learned: isLearned(progress), ...progress, ...(log ? { log } : {}) };
-  post(origins, message);
+  post(origins, { type: 'kith-lesson', event: progress.isFinished ? 'finished' : 'progress', score: scoreOf(progress), learned: isLearned(progress), ...progress, ...(log ? { log } : {}) });
 }
 
 /** Somebody did not agree to take part: that, and nothing else. */

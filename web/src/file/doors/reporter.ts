@@ -39,8 +39,7 @@ export class Reporter {
     this.hasNews = true;
     if (this.isBusy) return this.last;
     this.isBusy = true;
-    this.last = this.tellAll(server);
-    await this.last;
+    await (this.last = this.tellAll(server));
   }
 
   private async tellAll(server: LocalServer): Promise<void> {
