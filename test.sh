@@ -7,8 +7,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 # In minutes of two cores; a part that takes longer is stopped. What it builds first comes on top: minutes where the
 # night before has built it, more than an hour for all parts together where nobody has.
 night=(release ratios headers asan tsan python lesson fuzz coverage slow tidy)
-declare -A budget=([release]=16 [ratios]=3 [headers]=10 [asan]=20 [tsan]=5 [python]=6 [lesson]=12 [fuzz]=7 [coverage]=4
-  [slow]=32 [tidy]=16)
+declare -A budget=([release]=12 [ratios]=3 [headers]=5 [asan]=16 [tsan]=5 [python]=4 [lesson]=5 [fuzz]=7 [coverage]=4
+  [slow]=24 [tidy]=12)
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
