@@ -175,7 +175,8 @@ std::string table_plan(const Dataset& data, const ModelQuestion& question, const
     plan["smallest_effect"] = {{"size", question.smallest_effect->size},
                                {"standardized", question.smallest_effect->standardized}};
   }
-  return plan.dump(2) + "\n";
+  // What stands in no column may be any bytes.
+  return plan.dump(2, ' ', false, RJson::error_handler_t::replace) + "\n";
 }
 
 std::optional<Analysis> analyze_balanced_table(const Dataset& data, const ModelQuestion& question,
