@@ -7,6 +7,7 @@ bool json_nests_within(std::string_view text, std::size_t depth) noexcept {
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (c == '\0') return false;
     if (in_string) {
       if (c == '\\') {
         ++i;

@@ -55,8 +55,7 @@ std::optional<Json> parse_frame(std::string_view text) {
   constexpr std::size_t kDeepest = 32;
   if (!json_nests_within(text, kDeepest)) return std::nullopt;
   auto json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  return json;
+  return json.is_object() ? std::optional{std::move(json)} : std::nullopt;
 }
 
 }  // namespace

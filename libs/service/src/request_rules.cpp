@@ -139,7 +139,7 @@ std::optional<ServerReply> RequestRules::judge(const HttpMessage& head, bool has
 
 std::optional<ServerReply> RequestRules::judge_body(const HttpMessage& request) const {
   if (json_nests_within(request.body(), limits_.json_depth)) return std::nullopt;
-  return refusal(400, "the JSON nests too deeply");
+  return refusal(400, "the JSON nests too deeply or has a zero byte");
 }
 
 }  // namespace kith

@@ -131,7 +131,7 @@ void WebSocketConnection::deliver() {
   const auto data = in_.data();
   const std::string_view frame{static_cast<const char*>(data.data()), data.size()};
   if (!json_nests_within(frame, context_.options.limits.json_depth)) {
-    return begin_close(Code::policy_error, "the JSON nests too deeply");
+    return begin_close(Code::policy_error, "the JSON nests too deeply or has a zero byte");
   }
   try {
     context_.application.receive(id_, frame);
