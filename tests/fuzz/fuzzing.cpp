@@ -110,8 +110,9 @@ Outcome reads(std::string_view text, const std::string& file, const std::functio
   } catch (const Error& error) {
     require(*error.what() != '\0', "an error says something");
     require(error.diagnostics().empty() || has_errors(error.diagnostics()), "what stops is an error", error.what());
-    const auto outcome = require_good(error.diagnostics(), text, file);
-    return error.diagnostics().empty() ? Outcome::kRefused : outcome;
+    const auto& all = error.diagnostics();
+    const bool is_advice = all.size() == 1 && all.front().file.empty() && all.front().message == error.what();
+    return all.empty() || is_advice ? Outcome::kRefused : require_good(all, text, file);
   }
 }
 
