@@ -25,7 +25,8 @@ def counted(log):
     executions = [int(n) for n in re.findall(r"^\w+ +(\d+) executions ", log, re.M)]
     if executions:
         counts.append(f"{spaced(sum(executions))} inputs, at least {spaced(min(executions))} a target")
-    counts += [f"{share} % of lines" for share in re.findall(r"^together +\d+ lines +([\d.]+) %$", log, re.M)]
+    # Each target's, and last that of all.
+    counts += [f"{share} % of lines" for share in re.findall(r"^together +\d+ lines +([\d.]+) %$", log, re.M)[-1:]]
     return ", ".join(counts) or "-"
 
 
