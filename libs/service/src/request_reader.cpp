@@ -73,7 +73,11 @@ void RequestReader::skip_empty_lines() {
 
 void RequestReader::parse() {
   skip_empty_lines();
-  while (buffer_.size() > 0 && !(may_skip_ && !parser_->is_header_done())) {
+  // What is left of a chunked body is at least "0\r\n\r\n". With less of it, the parser asserts that there is as much.
+  const auto is_too_short = [&] {
+    return parser_->is_header_done() ? parser_->chunked() && buffer_.size() < 5 : may_skip_;
+  };
+  while (buffer_.size() > 0 && !is_too_short()) {
     boost::beast::error_code error;
     const auto used = parser_->put(buffer_.data(), error);
     if (error && error != http::error::need_more) {
@@ -94,11 +98,8 @@ void RequestReader::parse() {
     }
     if (error == http::error::need_more || used == 0) break;
   }
-  if (parser_->is_header_done()) {
-    state_ = State::kBody;
-  } else {
-    state_ = buffer_.size() > 0 || parser_->got_some() ? State::kHead : State::kIdle;
-  }
+  state_ = buffer_.size() > 0 || parser_->got_some() ? State::kHead : State::kIdle;
+  if (parser_->is_header_done()) state_ = State::kBody;
 }
 
 RequestReader::Failure RequestReader::failure_of(const boost::beast::error_code& error) const {
