@@ -74,10 +74,8 @@ void RequestReader::skip_empty_lines() {
 void RequestReader::parse() {
   skip_empty_lines();
   // What is left of a chunked body is at least "0\r\n\r\n". With less of it, the parser asserts that there is as much.
-  const auto is_too_short = [&] {
-    return parser_->is_header_done() ? parser_->chunked() && buffer_.size() < 5 : may_skip_;
-  };
-  while (buffer_.size() > 0 && !is_too_short()) {
+  const auto waits = [&] { return parser_->is_header_done() ? parser_->chunked() && buffer_.size() < 5 : may_skip_; };
+  while (buffer_.size() > 0 && !waits()) {
     boost::beast::error_code error;
     const auto used = parser_->put(buffer_.data(), error);
     if (error && error != http::error::need_more) {
