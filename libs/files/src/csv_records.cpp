@@ -72,7 +72,8 @@ class Splitter {
 
 // "sep=;" in a line of its own, which spreadsheets write and read.
 bool says_separator(std::string_view text) {
-  return text.starts_with("sep=") && (text.substr(5, 1) == "\n" || text.substr(5, 2) == "\r\n");
+  if (!text.starts_with("sep=") || text.size() < 6 || text.find_first_of("\r\n\"", 4) == 4) return false;
+  return text[5] == '\n' || text.substr(5, 2) == "\r\n";
 }
 
 bool is_blank(std::string_view line) { return line.find_first_not_of("\r\n") == std::string_view::npos; }
