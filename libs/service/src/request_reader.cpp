@@ -35,7 +35,6 @@ void RequestReader::begin() {
   parser_ = std::make_unique<Parser>();
   parser_->header_limit(static_cast<std::uint32_t>(header_bytes_));
   parser_->body_limit(body_bytes_);
-  parser_->eager(true);
   state_ = State::kIdle;
   may_skip_ = true;
 }
