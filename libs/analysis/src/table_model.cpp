@@ -175,7 +175,7 @@ std::string table_plan(const Dataset& data, const ModelQuestion& question, const
     plan["smallest_effect"] = {{"size", question.smallest_effect->size},
                                {"standardized", question.smallest_effect->standardized}};
   }
-  // What stands in no column may be any bytes.
+  // The formula is as it was typed, in any bytes.
   return plan.dump(2, ' ', false, RJson::error_handler_t::replace) + "\n";
 }
 
@@ -221,7 +221,7 @@ std::string table_csv(const Dataset& data) {
   std::string text;
   CsvWriter writer{columns, [&](std::string_view part) { text += part; }};
   for (std::size_t i = 0; i < data.num_rows(); ++i) {
-    for (const auto& name : data.columns()) writer.text_or_missing(data.with_points(name, i));
+    for (const auto& name : data.columns()) writer.text(data.with_points(name, i).value_or("NA"));
     writer.end_row();
   }
   writer.flush();

@@ -46,7 +46,8 @@ TEST(TablePlan, SaysWhatWasAsked) {
 
 TEST(TableCsv, HasCommasAndPoints) {
   const auto data = Dataset::parse("g;y\n\"a,b\";1,5\nc;\n", "t.csv");
-  EXPECT_EQ(table_csv(data), "g,y\n\"a,b\",1.5\nc,\n");
+  EXPECT_EQ(table_csv(data), "g,y\n\"a,b\",1.5\nc,NA\n");
+  EXPECT_EQ(table_csv(Dataset::parse("y\nNA\n1\n", "t.csv")), "y\nNA\n1\n");
 }
 
 TEST(BalancedTable, IsAnalysedWithoutR) {

@@ -30,7 +30,7 @@ struct ModelQuestion {
 /// @throws kith::Error (kInvalidInput, E0901) for identifiers that are no columns.
 [[nodiscard]] std::string table_plan(const Dataset& data, const ModelQuestion& question,
                                      const AnalysisOptions& options);
-/// The table as analysis.R reads it: commas between cells, points in numbers, missing cells empty.
+/// The table as analysis.R reads it: commas between cells, points in numbers, missing cells NA.
 [[nodiscard]] std::string table_csv(const Dataset& data);
 /// What kith can say itself, without R: the analysis of variance of one response by one factor, or by several with all
 /// their interactions ("y ~ a*b"), in a table of numbers whose rows are independent and whose cells are of one size.
