@@ -72,8 +72,9 @@ class Splitter {
 
 // "sep=;" in a line of its own, which spreadsheets write and read.
 bool says_separator(std::string_view text) {
-  if (!text.starts_with("sep=") || text.size() < 6 || text.find_first_of("\r\n\"", 4) == 4) return false;
-  return text[5] == '\n' || text.substr(5, 2) == "\r\n";
+  if (!text.starts_with("sep=") || text.size() < 6) return false;
+  const bool may_separate = std::string_view{"\r\n\""}.find(text[4]) == std::string_view::npos;
+  return may_separate && (text[5] == '\n' || text.substr(5, 2) == "\r\n");
 }
 
 bool is_blank(std::string_view line) { return line.find_first_not_of("\r\n") == std::string_view::npos; }
