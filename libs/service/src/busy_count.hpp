@@ -22,7 +22,7 @@ class BusyCount {
     }
     changed_.notify_all();
   }
-  // The job, under way until it has been called and what it holds, which may need what goes after us, was let go.
+  // Counts a job from now until it has been called and what it holds is gone: that may need what is destroyed after us.
   template <typename... Arguments>
   [[nodiscard]] auto during(std::function<void(Arguments...)> job) {
     begin();
