@@ -167,25 +167,12 @@ TEST(Curriculum, SaysWhenAndWhyNothingCanBeTaught) {
 }
 
 TEST(Curriculum, SaysThatNothingCanBeTaughtOfARobotWithoutAnyChoice) {
-  const std::string model = R"(schema = "kith.domain/1"
-id = "no-choice"
-[model]
-format = "csv"
-states = "states.csv"
-transitions = "transitions.csv"
-[[feature]]
-name = "slip"
-[[feature]]
-name = "step"
-[reward]
-weights = { slip = -2, step = -1 }
-)";
   const DomainFiles files{.known = {{"states.csv", "state,terminal\nbank,false\nshore,true\n"},
                                     {"transitions.csv",
                                      "state,action,next,probability,slip,step\n"
                                      "bank,go,shore,0.5,0,1\nbank,go,bank,0.5,1,1\n"}}};
-  EXPECT_EQ(why_nothing(model, files),
-            "nothing about 'no-choice' can be taught: the robot does the same with any reward");
+  EXPECT_EQ(why_nothing(testing::kSlippery, files),
+            "nothing about 'slippery' can be taught: the robot does the same with any reward");
 }
 
 TEST(Curriculum, RefusesToMeasureWithoutBeliefs) {

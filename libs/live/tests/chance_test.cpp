@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "domain_texts.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "live_play.hpp"
 #include "room_view.hpp"
@@ -69,21 +70,9 @@ icy,bank,go,bank,0.25,1,1
 )";
 
 TEST(Chance, IsNotSpokenOfInFeedbackAboutAWorldWithoutAny) {
-  const auto reading = parse_domain(
-      R"(schema = "kith.domain/1"
-id = "ice"
-[model]
-format = "csv"
-states = "states.csv"
-transitions = "transitions.csv"
-[[feature]]
-name = "slip"
-[[feature]]
-name = "step"
-[reward]
-weights = { slip = -2, step = -1 }
-)",
-      "domain.toml", {}, {.folder = {}, .known = {{"states.csv", kStates}, {"transitions.csv", kTransitions}}});
+  const auto reading =
+      parse_domain(testing::kSlippery, "domain.toml", {},
+                   {.folder = {}, .known = {{"states.csv", kStates}, {"transitions.csv", kTransitions}}});
   ASSERT_TRUE(reading.domain) << to_text(reading.diagnostics.front());
   const auto& domain = *reading.domain;
   const auto step = domain.count_scale();

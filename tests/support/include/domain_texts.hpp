@@ -92,6 +92,21 @@ weights = { wet = -2, disinfect = 3, people = -1.5, step = -1 }
 halfspaces = [ { step = -1 } ]
 )toml";
 
+/// A robot that may slip, in the tables states.csv and transitions.csv.
+inline constexpr const char* kSlippery = R"toml(schema = "kith.domain/1"
+id = "slippery"
+[model]
+format = "csv"
+states = "states.csv"
+transitions = "transitions.csv"
+[[feature]]
+name = "slip"
+[[feature]]
+name = "step"
+[reward]
+weights = { slip = -2, step = -1 }
+)toml";
+
 /// A domain with a single open facet: whoever likes going right expects the robot to go to and fro for ever.
 inline constexpr const char* kToAndFro = R"toml(schema = "kith.domain/1"
 id = "open"
