@@ -1,5 +1,4 @@
 // All strings of the page, in the study's language. English is built in; what another language lacks is English.
-import type german from './texts/de.json';
 import english from './texts/en.json';
 import { transport } from './transport';
 
@@ -12,9 +11,6 @@ export interface TextsDocument {
 // A text, or one in several forms: "key.one" and "key.other" are those of "key".
 export type TextKey = WithBase<keyof typeof english>;
 type WithBase<Key> = Key extends `${infer Base}.${'zero' | 'one' | 'other'}` ? Base | Key : Key;
-// The languages that come with kith have every text.
-type Complete<Texts extends Record<keyof typeof english, string>> = Texts;
-export type German = Complete<typeof german>;
 
 const kBuiltIn: Record<string, string> = english;
 const kAvailable = ['de']; // languages with a file beside this script

@@ -154,19 +154,20 @@ export async function openCmi5(): Promise<Door | null> {
   const terminated = `visit.terminated.${session}`;
   const failed = `visit.failed.${session}`; // told of a failure, a visit cannot be told of a pass any more
   await store.readPreferences();
-  const first = recall<object>(`visit.initialized.${session}`) ?? statements.of('initialized', { isDefined: true });
-  keep(`visit.initialized.${session}`, first); // the same one after a reload, which the store knows
-  await store.tell([first]);
-  // What has been told, with the statements that may not have been taken yet: the same ones are sent again.
-  const unsent = `visit.unsent.${session}`;
+  // What is told, and the statements that may not have been taken yet: after a reload the same ones are sent again.
+  const place = `visit.told.${session}`;
   const kept = JSON.parse((await store.state('kith')) || '{}') as Partial<Told>;
-  let { told, waiting } = recall<{ told: Told; waiting: object[] }>(unsent) ?? { told: { ...kNothing, hasPassed: false, hasCompleted: false, ...kept }, waiting: [] };
+  let { told, waiting } = recall<{ told: Told; waiting: object[] }>(place) ?? {
+    told: { ...kNothing, hasPassed: false, hasCompleted: false, ...kept },
+    waiting: [statements.of('initialized', { isDefined: true })], // once a session
+  };
   let isFinished = false;
   const send = async (): Promise<void> => {
-    keep(unsent, { told, waiting });
+    keep(place, { told, waiting });
     await store.tell(waiting);
-    await store.setState('kith', JSON.stringify(told));
     waiting = [];
+    keep(place, { told, waiting });
+    if (isNormal) await store.setState('kith', JSON.stringify(told));
   };
   const judge = (progress: Progress): void => {
     const scaled = scoreOf(progress) ?? 0;
@@ -185,6 +186,7 @@ export async function openCmi5(): Promise<Door | null> {
     keep(terminated, true);
     await store.tell([statements.of('terminated', { isDefined: true, result: { duration: duration(Date.now() - begun) } })], true);
   };
+  await send();
   return {
     learner: JSON.stringify(store.actor),
     recalled: told.log,
