@@ -123,6 +123,12 @@ Eigen::MatrixXd AtlasBuilder::people_within(const ConstraintSet& set, std::size_
   return cover(region, n, atlas_.feature_order_);
 }
 
+// What people do is planned once for all who ask.
+std::shared_ptr<PartitionStore> AtlasBuilder::partitions() {
+  if (!partitions_) partitions_ = std::make_shared<PartitionStore>(atlas_);
+  return partitions_;
+}
+
 std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
   const auto map = atlas_.domain_.map();
   if (!map) {

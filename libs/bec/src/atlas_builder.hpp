@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/bec/behaviours.hpp"
 #include "kith/core/hash.hpp"
 #include "kith/core/memory.hpp"
 #include "kith/mdp/coverage_set.hpp"
@@ -49,6 +51,7 @@ class AtlasBuilder {
                                                                  std::size_t reference) const;
   [[nodiscard]] std::vector<KnowledgeComponent> worth_most(std::vector<KnowledgeComponent> candidates);
   [[nodiscard]] bool is_of_use(const KnowledgeComponent& component) const;
+  [[nodiscard]] std::shared_ptr<PartitionStore> partitions();
   void make_facets();
   void group_starts();
   void group_by_hulls();
@@ -80,8 +83,9 @@ class AtlasBuilder {
   MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
   ConstraintTable raw_;
-  bool paths_meet_all_states_ = true;  // those of candidates
-  bool indifferent_ = false;           // constraints that hold with equality at the robot's weights do not count
+  std::shared_ptr<PartitionStore> partitions_;  // made by partitions(), once the demonstrations are known
+  bool paths_meet_all_states_ = true;           // those of candidates
+  bool indifferent_ = false;  // constraints that hold with equality at the robot's weights do not count
   std::vector<std::vector<ConstraintIndex>> raw_sets_;  // per state on candidates' paths: all along the path, sorted
   std::vector<std::vector<HalfSpace>> minimal_sets_;    // distinct minimal sets
   IntsMap<std::uint32_t> pictures_;

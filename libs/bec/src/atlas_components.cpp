@@ -87,7 +87,7 @@ std::vector<std::vector<std::size_t>> AtlasBuilder::trade_offs(const std::vector
 std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeComponent> candidates) {
   std::vector<KnowledgeComponent> chosen;
   if (candidates.empty()) return chosen;
-  PeopleRegret regret{atlas_};
+  PeopleRegret regret{partitions(), {}};
   Regions regions{atlas_.constraints_};
   auto taught = atlas_.prior_;
   std::optional<double> at_first;

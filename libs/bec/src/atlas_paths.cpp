@@ -60,7 +60,7 @@ double regret_of(PeopleRegret& regret, const Eigen::MatrixXd& people, Eigen::Ind
 // left then is measured with people who had no part in that.
 void AtlasBuilder::compare_whole_paths() {
   if (tables_ || paths_meet_all_states_) return;
-  PeopleRegret regret{atlas_, kManyStarts};
+  PeopleRegret regret{partitions(), kManyStarts};
   Regions regions{atlas_.constraints_};
   auto known = atlas_.prior_;
   for (const auto& set : atlas_.one_step_sets_) known |= set;

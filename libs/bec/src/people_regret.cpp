@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "kith/core/stream.hpp"
 
@@ -22,17 +23,20 @@ std::vector<std::size_t> some_of(std::size_t n, std::size_t most, const RandomSt
 
 }  // namespace
 
-PeopleRegret::PeopleRegret(const Atlas& atlas, const Sample& sample) : atlas_{&atlas}, behaviours_{atlas} {
-  const Domain& domain = atlas.domain();
+PeopleRegret::PeopleRegret(std::shared_ptr<PartitionStore> store, const Sample& sample)
+    : atlas_{&store->atlas()},
+      behaviours_{*atlas_, Behaviours::kDefaultCells, Behaviours::kDefaultRowBytes,
+                  std::make_shared<PolicyPartitions>(std::move(store))} {
+  const Domain& domain = atlas_->domain();
   const auto random = RandomStream{0}.split("regret of people");
   const double scale = 1.0 / static_cast<double>(domain.count_scale());
   for (const std::size_t m : some_of(domain.num_mdps(), sample.mdps, random.split("mdps"))) {
     const MdpIndex mdp{m};
     const auto& starts = domain.starts(mdp);
     for (const std::size_t i : some_of(starts.size(), sample.starts_per_mdp, random.split("starts").split(m))) {
-      Start start{atlas.index({mdp, starts[i]})};
+      Start start{atlas_->index({mdp, starts[i]})};
       for (std::size_t choice = 0; choice < domain.mdp(mdp).choices(starts[i]).size(); ++choice) {
-        const auto loss = atlas.feature_counts(start.index) - atlas.deviation_counts(start.index, choice);
+        const auto loss = atlas_->feature_counts(start.index) - atlas_->deviation_counts(start.index, choice);
         start.worst = std::max(start.worst, domain.weights().return_of(loss) * scale);
       }
       starts_.push_back(start);

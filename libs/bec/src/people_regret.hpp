@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
@@ -16,9 +17,8 @@ class PeopleRegret {
     std::size_t starts_per_mdp = 24;
   };
 
-  // @pre the atlas knows its demonstrations; it need not know more. Behaviours are planned on demand.
-  explicit PeopleRegret(const Atlas& atlas) : PeopleRegret{atlas, Sample{}} {}
-  PeopleRegret(const Atlas& atlas, const Sample& sample);
+  // @pre the store's atlas knows its demonstrations; it need not know more. Behaviours are planned on demand.
+  PeopleRegret(std::shared_ptr<PartitionStore> store, const Sample& sample);
 
   // Mean over the starts, in units of the normalised weights. Where somebody has no optimum, it is that of the worst
   // single deviation from the robot's path.
