@@ -115,7 +115,7 @@ in_time() {  # COMMAND...: 124 if it had to be stopped at the deadline, with all
 run_tests() {  # PRESET [OPTION...]
   say
   say "== tests in build/$1"
-  ctest --preset "$1" -j "$jobs" "${@:2}" || die "tests in build/$1 failed (again: ctest --preset $1 --rerun-failed)"
+  ctest --preset "$1" -j $((jobs + 1)) "${@:2}" || die "tests in build/$1 failed (again: ctest --preset $1 --rerun-failed)"
 }
 tests_of() { printf 'kith_%s_tests\n' "$@"; }
 labels_of() { printf '^(%s)$' "$(IFS='|' && printf '%s' "$*")"; }
