@@ -1,5 +1,6 @@
 // The folders of three shards with some of their files edited, put together in any order, twice or not at all. What is
-// put together holds the very bytes that were written, of all teams; where less is allowed, what is missing is said.
+// put together holds the very bytes that were written, of all teams of one study; where less is allowed, what is
+// missing is said.
 
 #include "../folders.hpp"
 #include "../scratch.hpp"
@@ -16,25 +17,27 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShards = 3;
 constexpr std::size_t kTeams = 4;
 
-// The shards of two studies that differ in their seeds, and the records of the first.
+// The shards of two studies that differ in their seeds, and the records of each by JournalIdentity::key().
 struct Runs {
   fuzzing::Scratch scratch;
   fuzzing::FolderContent sound, foreign;
-  std::map<std::size_t, std::string> records;
+  std::map<std::string, std::map<std::size_t, std::string>> records;
 
   Runs() {
     const Atlas atlas{*fuzzing::small_study(1).domain};
     for (std::size_t i = 1; i <= kShards; ++i) {
       const Shard shard{i, kShards};
-      fuzzing::run_small_study(folder("run", i), atlas, 1, shard);
-      fuzzing::run_small_study(folder("other", i), atlas, 2, shard);
-      Journal::read(folder("run", i) / kJournalFile).for_each([&](std::size_t team, std::string_view bytes) {
-        records.emplace(team, bytes);
-      });
+      for (const auto& [name, seed] : {std::pair{"run", 1u}, {"other", 2u}}) {
+        fuzzing::run_small_study(folder(name, i), atlas, seed, shard);
+        auto journal = Journal::read(folder(name, i) / kJournalFile);
+        auto& of_study = records[journal.identity().key()];
+        journal.for_each([&](std::size_t team, std::string_view bytes) { of_study.emplace(team, bytes); });
+      }
     }
     sound = fuzzing::content_of(path());
     foreign = fuzzing::content_of(scratch.path() / "other");
-    require(records.size() == kTeams, "the shards hold all teams");
+    for (const auto& [key, teams] : records) require(teams.size() == kTeams, "the shards hold all teams");
+    require(records.size() == 2, "the studies are told apart");
   }
   [[nodiscard]] fs::path path() const { return scratch.path() / "run"; }
   [[nodiscard]] fs::path folder(const char* run, std::size_t shard) const {
@@ -57,7 +60,8 @@ void check(const Shards& shards, bool allow_partial) {
     }
   }
   for (const auto& [team, bytes] : found) {
-    require(bytes == runs().records.at(team), "a team's record is the one that was written");
+    const auto& written = runs().records.at(shards.journals.front().identity().key());
+    require(bytes == written.at(team), "a team's record is the one that was written, all of one study");
   }
   require(found.size() == kTeams || (allow_partial && !shards.missing.empty()), "all teams are there, or it is said");
 }
