@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "kernels.hpp"
 #include "kith/core/distributions.hpp"
@@ -82,7 +83,6 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
   const bool fits_everywhere =
       std::any_of(alternatives.begin(), alternatives.end(), [](const auto& list) { return list.empty(); });
   if (alternatives.empty() || fits_everywhere || is_constant(likelihood)) return;
-  product_.give_up();
   detail::ParticleScratch<double> best{size()};
   detail::ParticleScratch<double> factors{size()};
   weigh(alternatives[0], likelihood, best.values());
@@ -90,7 +90,13 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
     weigh(alternative, likelihood, factors.values());
     detail::raise(factors.values(), best.values());
   }
-  reweigh_and_record(best.values(), random);
+  auto product = std::exchange(product_, detail::LikelihoodProduct{false});
+  try {
+    reweigh_and_record(best.values(), random);
+  } catch (...) {
+    product_ = std::move(product);
+    throw;
+  }
 }
 
 // The effective number of points that satisfy all half-spaces: their factor is exactly 1, and its logarithm 0. Where
