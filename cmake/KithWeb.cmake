@@ -11,6 +11,7 @@ mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
 # Of tests in a browser: one of files and one of pages that a server sends at a time, and first, because they take
 # longest.
+set(webcrypto --experimental-global-webcrypto)  # what browsers have; Debian's Node.js 18 has it where it is asked for
 set(browser_of_files RESOURCE_LOCK browser_of_files COST 1000)
 set(browser_of_pages RESOURCE_LOCK browser_of_pages COST 2000)
 
@@ -83,8 +84,8 @@ function(kith_add_web_apps)
       string(SUBSTRING ${page} 1 -1 rest)
       set(name ${first}${rest})
       # People on the pages that the program serves.
-      add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --kith $<TARGET_FILE:kith>
-        --modules ${build} --chromium ${KITH_CHROMIUM})
+      add_test(NAME web.${name} COMMAND ${KITH_NODE} ${webcrypto} ${source}/tests/${page}_test.mjs
+        --kith $<TARGET_FILE:kith> --modules ${build} --chromium ${KITH_CHROMIUM})
       set_tests_properties(web.${name} PROPERTIES ${browser_of_pages} TIMEOUT 1200 LABELS web)
     endif()
   endforeach()
@@ -93,7 +94,7 @@ endfunction()
 # Types, doors of lesson files, sample documents as a reader sees them, and documents that lack parts.
 function(kith_test_web_pages source build)
   add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})
-  add_test(NAME web.DoorRules COMMAND ${KITH_NODE} ${source}/tests/door_rules_test.mjs --modules ${build})
+  add_test(NAME web.DoorRules COMMAND ${KITH_NODE} ${webcrypto} ${source}/tests/door_rules_test.mjs --modules ${build})
   set_tests_properties(web.Types web.DoorRules PROPERTIES LABELS web)
   if(NOT KITH_CHROMIUM)
     message(STATUS "No Chromium: pages are not tested in a browser (apt-get install chromium)")

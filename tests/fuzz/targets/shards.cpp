@@ -1,6 +1,5 @@
 // The folders of three shards with some of their files edited, put together in any order, twice or not at all. What is
-// put together holds the very bytes that were written, of all teams of one study; where less is allowed, what is
-// missing is said.
+// put together holds the very bytes that were written, of all teams of a study; where less is allowed, it is said.
 
 #include "../folders.hpp"
 #include "../scratch.hpp"
