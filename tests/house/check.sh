@@ -12,7 +12,7 @@ files() {
     done
   else
     local name=() pattern
-    for pattern in "$@"; do name+=(-o -name "${pattern##*/}"); done
+    for pattern in "$@"; do name+=(-o -path "./$pattern"); done
     find . \( -path ./build -o -path ./results -o -path ./.git \) -prune -o -type f \
       ${name[@]+\( "${name[@]:1}" \)} -print | sed 's|^\./||'
   fi
