@@ -9,9 +9,10 @@ find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
 find_program(KITH_CHROMIUM NAMES chromium chromium-headless-shell DOC "Browser that tests the pages")
 mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
+set(webcrypto --experimental-global-webcrypto)  # browsers have it, Debian's Node.js 18 on request only
+
 # Of tests in a browser: one of files and one of pages that a server sends at a time, and first, because they take
 # longest.
-set(webcrypto --experimental-global-webcrypto)  # what browsers have; Debian's Node.js 18 has it where it is asked for
 set(browser_of_files RESOURCE_LOCK browser_of_files COST 1000)
 set(browser_of_pages RESOURCE_LOCK browser_of_pages COST 2000)
 

@@ -1,5 +1,6 @@
 // The folders of three shards with some of their files edited, put together in any order, twice or not at all. What is
-// put together holds the very bytes that were written, of all teams of a study; where less is allowed, it is said.
+// put together holds all teams of one study, in the very bytes that were written; where less is allowed, it says what
+// is missing.
 
 #include "../folders.hpp"
 #include "../scratch.hpp"
