@@ -35,7 +35,7 @@ class Storage {
   }
 }
 let listeners;
-const define = (name, value) => Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+const define = (name, value, of = globalThis) => Object.defineProperty(of, name, { value, configurable: true, writable: true });
 // A window tells nothing of itself to other sites.
 const windowOf = (parts = {}) => {
   const made = { opener: null, listeners: {}, addEventListener: (type, call) => (listeners[type] ??= []).push(call), ...parts };
@@ -46,7 +46,7 @@ const foreign = (parts) => new Proxy(windowOf(parts), { get: (on, name) => (['pa
 function load(around, isAgain) {
   listeners = {};
   define('window', windowOf(around));
-  performance.getEntriesByType = () => [{ type: isAgain ? 'reload' : 'navigate' }];
+  define('getEntriesByType', () => [{ type: isAgain ? 'reload' : 'navigate' }], performance);
 }
 beforeEach(() => {
   define('sessionStorage', new Storage());
