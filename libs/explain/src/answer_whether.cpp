@@ -49,16 +49,23 @@ void Answerer::whether() {
 
 void Answerer::show_why_true(const HalfSpace& said, const std::vector<HalfSpace>& known) {
   const auto& facets = atlas_.policy_bec_half_spaces();
+  const auto follows_from = [&](std::vector<HalfSpace> some) {
+    some.insert(some.end(), known.begin(), known.end());
+    return region_of(some, question_.condition, domain_.num_features()).implies(said);
+  };
   std::vector<HalfSpace> needed;
   for (const auto& facet : facets) {
-    auto alone = known;
-    alone.push_back(facet);
     if (atlas_.prior_cone().implies(facet)) continue;
-    if (region_of(alone, question_.condition, domain_.num_features()).implies(said)) {
+    if (follows_from({facet})) {
       needed = {facet};
       break;
     }
     needed.push_back(facet);
+  }
+  for (auto i = needed.size(); i-- > 0;) {
+    auto rest = needed;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    if (follows_from(rest)) needed = std::move(rest);
   }
   constexpr std::size_t kFew = 2;
   for (const auto& facet : needed) {

@@ -38,8 +38,8 @@ void Answerer::why_at(StartIndex start_index) {
   std::string says = scene_.place_text(start_index) + " it " + action_words(scene_.action(own));
   if (!does || does_instead) {
     says = (does ? "but " : "it does not: ") + says;
-    const auto contrast = does_instead ? scene_.contrast_to(start_index, *question_.instead, false)
-                                       : scene_.contrast_to(start_index, *question_.happening, true);
+    const auto contrast = does ? scene_.contrast_to(start_index, *question_.instead, false)
+                               : scene_.contrast_to(start_index, *question_.happening, true);
     return conclude(start_index, says, contrast);
   }
   conclude(

@@ -105,6 +105,15 @@ TEST(AskWhy, TellsWhenItDoesNot) {
   const auto start = atlas.index({MdpIndex{0}, atlas.domain().initial_state(MdpIndex{0})});
   ASSERT_EQ(atlas.domain().action_names()[atlas.trajectory(start).actions[0].value()], "pickup");
   EXPECT_THAT(ask("why up at (4,3) in world 0").text, HasSubstr("It does not: at (4,3) in world 0 it picks it up; "));
+  EXPECT_EQ(ask("why up, not left, at (4,3) carrying the parcel?").text,
+            ask("why up at (4,3) carrying the parcel?").text);
+}
+
+TEST(AskWhether, ShowsNothingThatTheAnswerDoesNotFollowFrom) {
+  const auto reply =
+      ask("is rubble worse than 4 steps");  // it is worth less than the charger, and that less than 4 steps
+  ASSERT_EQ(reply.examples.size(), 2u);
+  EXPECT_EQ(reply.examples[1].text, "stopping at the charger is worth more than crossing rubble");
 }
 
 TEST(AskWhy, ComparesWholeWaysWithoutACell) {
