@@ -1,4 +1,6 @@
 // What has happened in a lesson file. It survives a reload where the browser lets pages keep things.
+import { forgetPerson } from '../live/storage';
+import { attempt } from '../shared/attempt';
 import { uuid } from '../shared/uuid';
 import type { LessonFile } from './document';
 import type { Lesson } from './engine';
@@ -16,25 +18,15 @@ export interface Log {
 // Of one learner, where the system around the page says who it is.
 const place = (file: LessonFile, learner: string): string => `kith.lesson.${file.digest}${learner && `.${learner}`}`;
 
-const kOfVisit = 'kith.visit.'; // what belongs to a visit to a learning system, which goes on
 const tab = uuid(); // of this page, not of the tab: a duplicated tab has the same storage
 
 /** From now on this tab keeps the lesson; those that have it open, too, do not any more. */
 export function holdLog(file: LessonFile, learner: string): void {
-  try {
-    localStorage.setItem(`${place(file, learner)}.tab`, tab);
-  } catch {
-    // nothing is kept
-  }
+  attempt(() => localStorage.setItem(`${place(file, learner)}.tab`, tab));
 }
 
-export function holdsLog(file: LessonFile, learner: string): boolean {
-  try {
-    return (localStorage.getItem(`${place(file, learner)}.tab`) ?? tab) === tab;
-  } catch {
-    return true;
-  }
-}
+export const holdsLog = (file: LessonFile, learner: string): boolean =>
+  (attempt(() => localStorage.getItem(`${place(file, learner)}.tab`)) ?? tab) === tab;
 
 export function emptyLog(file: LessonFile): Log {
   const setup = { ...file.setup, id: uuid() };
@@ -43,29 +35,15 @@ export function emptyLog(file: LessonFile): Log {
 
 // Nothing if there is none, or it is one that cannot be gone on with.
 export function recalledLog(file: LessonFile, learner: string): Log | null {
-  try {
-    const log = JSON.parse(localStorage.getItem(place(file, learner)) ?? 'null') as Log | null;
-    return log?.schema === 'kith.lesson-log/1' && log.study === file.digest && Array.isArray(log.events) ? log : null;
-  } catch {
-    return null;
-  }
+  const log = attempt(() => JSON.parse(localStorage.getItem(place(file, learner)) ?? 'null') as Log | null);
+  return log?.schema === 'kith.lesson-log/1' && log.study === file.digest && Array.isArray(log.events) ? log : null;
 }
 
 /** Whether the browser has kept it. */
-export function keepLog(file: LessonFile, learner: string, log: Log): boolean {
-  try {
-    localStorage.setItem(place(file, learner), JSON.stringify(log));
-    return true;
-  } catch {
-    return false;
-  }
-}
+export const keepLog = (file: LessonFile, learner: string, log: Log): boolean =>
+  attempt(() => localStorage.setItem(place(file, learner), JSON.stringify(log))) !== null;
 
 export function eraseLog(file: LessonFile, learner: string): void {
-  try {
-    localStorage.removeItem(place(file, learner));
-    for (const key of Object.keys(sessionStorage)) if (!key.startsWith(kOfVisit)) sessionStorage.removeItem(key);
-  } catch {
-    // nothing was kept
-  }
+  attempt(() => localStorage.removeItem(place(file, learner)));
+  forgetPerson();
 }

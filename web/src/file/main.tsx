@@ -9,7 +9,7 @@ import { installTheme } from '../shared/theme';
 import { useTransport } from '../shared/transport';
 import { Again } from './again';
 import { readDocument } from './document';
-import { keep, recall } from '../live/storage';
+import { keep, keepFor, recall } from '../live/storage';
 import { isLoadedAgain, type Door, type Opening } from './doors/door';
 import { unpacked } from './doors/packed';
 import { findDoor, isFramed, Reporter, type DoorTrouble } from './doors/reporter';
@@ -163,6 +163,7 @@ async function begin(): Promise<void> {
       status.trouble = 'refused';
     }
     learner = status.door?.learner ?? '';
+    keepFor(`${file.digest}.${learner}`);
     const log = await longestLog(status.door);
     hasLog = log !== null;
     await server.goOn(learner, log);
@@ -179,6 +180,7 @@ async function begin(): Promise<void> {
   await server.ready();
   // Whoever has agreed on this page before it was loaded again is not asked again.
   if (server.stage !== 'consent' || (isLoadedAgain() && recall(kAgreed) === file.digest)) await connect();
+  keepFor(`${file.digest}.${learner}`);
   useTransport(server);
   // For pages around this one and for tests: what has happened, and the table of moves of a world.
   Object.assign(window, { kithLesson: { log: () => server.export(), world: (key: string) => server.world(key) } });

@@ -1,6 +1,6 @@
 // Who this tab is: a token from the link's fragment, kept in this tab only.
 import { transport } from '../shared/transport';
-import { forget, keep, keepInBrowser, recall, recallInBrowser } from './storage';
+import { forgetPerson, keepFor, keepInBrowser, recall, recallInBrowser } from './storage';
 
 const pattern = /^[A-Za-z0-9_-]{8,200}$/;
 
@@ -21,7 +21,7 @@ export function knownToken(): { token: string | null; isOfLink: boolean } {
   if (transport().isLocal) return { token: 'lesson-file', isOfLink: true };
   const ofLink = tokenOfLink();
   if (ofLink) {
-    keep('token', ofLink);
+    keepFor(ofLink);
     return { token: ofLink, isOfLink: true };
   }
   return { token: recall<string>('token'), isOfLink: false };
@@ -43,13 +43,13 @@ export function rememberJoining(token: string): void {
 
 // The address then has the token too, so that a bookmark or the history leads back to the session.
 export function becomeParticipant(token: string): void {
-  keep('token', token);
+  keepFor(token);
   history.replaceState(null, '', `/j#t=${encodeURIComponent(token)}`);
 }
 
 export function forgetParticipant(): void {
   const token = recall<string>('token');
   keepInBrowser('joined', joinedHere().filter((one) => one.token !== token));
-  for (const key of ['token', 'outbox', 'drive', 'seen', 'sketch', 'shown', 'feedback', 'questions', 'dismissed', 'introduced', 'name']) forget(key);
+  forgetPerson();
   history.replaceState(null, '', '/');
 }

@@ -13,21 +13,19 @@ const linkOf = async ({ page, origin }) => `${origin}/j#t=${await page.evaluate(
 
 export function failureTests(setting) {
   describe('a session in trouble', () => {
-    it('is where it was after a reload of any screen', async () => {
+    it('is where it was after a reload of any screen, and new for whoever comes next', async () => {
       await withGroup(setting, { keys: ['stop.max_periods=1', 'group.screening.tests=1'], group: kQuestions, look: kStopped }, async ({ person, page }) => {
-        const reload = async () => {
-          const before = await person.heading();
+        const reload = async (heading) => {
+          const before = heading ?? (await person.heading());
+          await person.at(before);
           await page.reload();
           await person.at(before);
         };
-        await person.at('Before you start');
-        await reload();
+        await reload('Before you start');
         await person.consent();
-        await person.at('What this is about');
-        await reload();
+        await reload('What this is about');
         await person.button('Continue').click();
-        await person.at('Try the controls');
-        await reload();
+        await reload('Try the controls');
         await person.drive(await person.best());
         await reload();
         await person.button('Continue').click();
@@ -38,8 +36,7 @@ export function failureTests(setting) {
         await person.button('Submit').click();
         await person.button('Submit anyway').click();
         const examples = await person.examples();
-        await person.at('Watch the robot');
-        await reload();
+        await reload('Watch the robot');
         await person.button('Next step').click();
         await page.keyboard.press('ArrowRight');
         for (let i = 2; i < person.view.watch.frames.length - 1; i += 1) await page.keyboard.press('ArrowRight');
@@ -53,16 +50,18 @@ export function failureTests(setting) {
         await person.counts('2 steps');
         await person.button('Start over').click();
         await person.answer();
-        await person.at('Correct');
-        await reload();
+        await reload('Correct');
         await person.feedback();
-        await person.at('A few questions');
-        await reload();
+        await reload('A few questions');
         await page.getByRole('radio', { name: '6', exact: true }).check();
         await page.getByRole('radio', { name: 'never' }).check();
         await person.button('Submit').click();
-        await person.at('Thank you');
-        await reload();
+        await reload('Thank you');
+        await person.open();
+        await person.button('Join').click();
+        await person.button('I am somebody else').click();
+        await person.consent();
+        await person.at('What this is about');
       });
     });
 
