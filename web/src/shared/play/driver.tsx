@@ -92,24 +92,14 @@ export function Driver({ board, legend, world, drive, off, isForEver, children, 
             <Button
               class="undo"
               off={off || drive.actions.length === 0}
-              onClick={() => {
-                drive.undo();
-                log.say(t('predict.undone'));
-              }}
+              onClick={drive.undo}
             >
               <svg class="icon" viewBox="0 0 24 24" aria-hidden="true" focusable="false">
                 <path d="M9 4 3 9.5 9 15V11h5.5a3.5 3.5 0 0 1 0 7H8v2.5h6.5a6 6 0 0 0 0-12H9z" />
               </svg>
               <span>{t('predict.undo')}</span>
             </Button>
-            <Button
-              off={off || drive.actions.length === 0}
-              class="reset"
-              onClick={() => {
-                drive.reset();
-                log.say(t('predict.was_reset'));
-              }}
-            >
+            <Button off={off || drive.actions.length === 0} class="reset" onClick={drive.reset}>
               {t('predict.reset')}
             </Button>
           </div>
@@ -153,14 +143,13 @@ interface TellingOptions {
 function useTelling({ board, legend, drive, log, end }: TellingOptions): (outcome: Told) => void {
   const length = useRef(drive.actions.length);
   useLayoutEffect(() => {
-    if (drive.actions.length > length.current) {
-      log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${end}` : ''));
-    }
+    const more = drive.actions.length - length.current;
+    if (more > 0) log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${end}` : ''));
+    else if (more < 0) log.say(t(drive.actions.length > 0 ? 'predict.undone' : 'predict.was_reset'));
     length.current = drive.actions.length;
   }, [drive.actions]);
   return (outcome) => {
-    if (outcome === 'undone') log.say(t('predict.undone'));
-    else if (outcome === 'blocked') log.say(t('predict.blocked'));
+    if (outcome === 'blocked') log.say(t('predict.blocked'));
     else if (outcome === 'none') log.say(t('predict.too_far'));
     else if (outcome === 'end') log.say(end);
     else if (outcome === 'full') log.say(t('predict.longest', { n: 0 }));
