@@ -428,6 +428,7 @@ describe('a lesson', () => {
       assert.equal(await shown.locator('.board .destination').count(), 1);
       assert.equal(await shown.locator('.board .fence').getAttribute('d'), 'M80 0v40');
       await shown.getByRole('button', { name: 'Watch without a guess' }).click();
+      await reads(shown.locator('.in-words'), /ice; right: a wall/);
       const next = shown.getByRole('button', { name: 'Next step' });
       const said = shown.locator('.log p').last();
       await next.click();

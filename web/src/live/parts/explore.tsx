@@ -10,7 +10,7 @@ import { BoardPane, Things, useLegend } from '../../shared/play/board_pane';
 import { Brackets } from '../../shared/play/brackets';
 import { countsOf, Ledger } from '../../shared/play/ledger';
 import { actionLabel, capitalised, isEnglish, listed, named, sentence, t } from '../../shared/texts';
-import { cellTexts } from '../../shared/play/words';
+import { cellTexts, isSame } from '../../shared/play/words';
 import type { Explored, ParticipantView } from '../protocol';
 import { Button } from './ui';
 
@@ -30,7 +30,6 @@ interface Asked {
   isChanged: boolean;
 }
 
-const isSame = (a: Place | undefined, b: Place): boolean => a !== undefined && a[0] === b[0] && a[1] === b[1];
 const symbolAt = (map: string[], [x, y]: Place): string => map[y - 1]?.charAt(x - 1) ?? '';
 
 function withSymbols(map: string[], changes: [Place, string][]): string[] {

@@ -6,7 +6,7 @@ import { actionLabel, hasText, isEnglish, listed, named, sentence, t } from '../
 
 const kDirections: Record<string, [number, number]> = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
 
-const isSame = (a: Place | undefined, b: Place | undefined): boolean => a?.[0] === b?.[0] && a?.[1] === b?.[1];
+export const isSame = (a: Place | undefined, b: Place | undefined): boolean => a?.[0] === b?.[0] && a?.[1] === b?.[1];
 
 function directionOf(from: Place, to: Place): string {
   const [dx, dy] = [Math.sign(to[0] - from[0]), Math.sign(to[1] - from[1])];
@@ -82,6 +82,10 @@ export function stepText(board: PlayBoard, legend: Legend, before: Frame, after:
   return t(isUnchanged(before, after) ? 'say.stay' : 'say.other', { action: said });
 }
 
+// Whether something stands between two cells.
+const isFenced = ({ fences = [] }: PlayBoard, from: Place, to: Place): boolean =>
+  fences.some(([a, b]) => (isSame(a, from) && isSame(b, to)) || (isSame(a, to) && isSame(b, from)));
+
 // What is around the robot and what it carries: for people who do not see the board.
 export function aroundText(board: PlayBoard, legend: Legend, frame: Frame): string {
   if (!frame.robot) return t('around.state', { state: named(frame.state ?? '') });
@@ -90,7 +94,7 @@ export function aroundText(board: PlayBoard, legend: Legend, frame: Frame): stri
   const sides = Object.entries(kDirections).map(([name, [dx, dy]]) => {
     const cell: Place = [column + dx, row + dy];
     const isOutside = cell[0] < 1 || cell[1] < 1 || cell[0] > width || cell[1] > height;
-    const things = isOutside ? [] : partsAt(board, legend, frame, cell).map(phrase);
+    const things = isOutside ? [] : isFenced(board, [column, row], cell) ? [t('thing.wall')] : partsAt(board, legend, frame, cell).map(phrase);
     const what = isOutside ? t('around.edge') : things.length > 0 ? listed(things) : t('around.floor');
     return t('around.side', { direction: actionLabel(name), what });
   });
@@ -112,7 +116,10 @@ export function cellTexts(board: PlayBoard, legend: Legend, frame: Frame): strin
       const cell: Place = [x + 1, y + 1];
       const things = partsAt(board, legend, frame, cell).map(phrase);
       if (isSame(frame.robot, cell)) things.unshift(t('thing.robot'));
-      return things.length > 0 ? listed(things) : t('around.floor');
+      const closed = Object.entries(kDirections).flatMap(([name, [dx, dy]]) =>
+        isFenced(board, cell, [cell[0] + dx, cell[1] + dy]) ? [t('around.side', { direction: actionLabel(name), what: t('thing.wall') })] : [],
+      );
+      return [things.length > 0 ? listed(things) : t('around.floor'), ...closed].join('; ');
     }),
   );
 }
@@ -120,7 +127,7 @@ export function cellTexts(board: PlayBoard, legend: Legend, frame: Frame): strin
 // What the map is made of, to read as its label: "A map with the robot, rubble and the charger".
 export function boardText(board: PlayBoard, legend: Legend, frame: Frame): string {
   if (!board.map) return t('board.state', { state: named(frame.state ?? '') });
-  const things = new Set<string>();
+  const things = new Set(board.fences?.length ? [t('thing.wall')] : []);
   board.map.forEach((line, y) => [...line].forEach((_, x) => {
     for (const part of partsAt(board, legend, frame, [x + 1, y + 1])) things.add(phrase(part));
   }));
