@@ -7,6 +7,7 @@ import type { Legend } from '../board/legend';
 import type { Frame, PlayBoard } from '../board/types';
 import { actionLabel, listed, named, t } from '../texts';
 import { BoardPane } from './board_pane';
+import { isSame } from './words';
 import { labelOf } from './ledger';
 import type { Branch, World } from './world';
 
@@ -83,7 +84,7 @@ export function Fan({ board, legend, world, state, own, other, isYours, costs }:
           </figure>
         ))}
       </div>
-      <Saved board={board} world={world} state={state} own={first.branches} other={second.branches} costs={costs} />
+      <Saved board={board} world={world} state={state} action={own} own={first.branches} other={second.branches} costs={costs} />
     </div>
   );
 }
@@ -101,16 +102,20 @@ interface SavedProps {
   board: PlayBoard;
   world: World;
   state: number;
+  action: number; // the robot's
   own: Branch[];
   other: Branch[];
   costs: number[];
 }
 
 // What costs the robot something and happens after the one action but never, or less often, after the other.
-function Saved({ board, world, state, own, other, costs }: SavedProps): JSX.Element {
+function Saved({ board, world, state, action, own, other, costs }: SavedProps): JSX.Element {
   const chanceOf = (branches: Branch[], k: number): number =>
     branches.reduce((sum, { probability, counts }) => sum + ((counts[k] ?? 0) !== 0 ? probability : 0), 0);
-  const isPushing = own.some(({ next }) => JSON.stringify(world.frame(next).robot) === JSON.stringify(world.frame(state).robot));
+  const [x, y] = world.frame(state).robot ?? [0, 0];
+  const shift = world.actions[action]?.shift;
+  const reaches = (dx: number, dy: number): boolean => own.some(({ next }) => isSame(world.frame(next).robot, [x + dx, y + dy]));
+  const isPushing = shift && reaches(0, 0) && !reaches(...shift); // it does not slip there: it aims at what is closed
   const texts = costs.flatMap((k) => {
     const [mine, theirs] = [chanceOf(own, k), chanceOf(other, k)];
     const counted = board.domain.counted?.[k];
