@@ -9,7 +9,7 @@ const source = join(dirname(fileURLToPath(import.meta.url)), '../../src');
 const textOf = (name) => readFileSync(join(source, 'shared/texts', name), 'utf8');
 const read = (name) => JSON.parse(textOf(name));
 const placeholders = (text) => [...text.matchAll(/\{(\w+)\}/g)].map(([, name]) => name).sort();
-const isNamed = (key) => key.startsWith('name.'); // what the domain names: English has only names that do not read well
+const isNamed = (key) => /^(name|count)\./.test(key); // what the domain names: English has only names that do not read well
 
 function sources(folder) {
   return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {

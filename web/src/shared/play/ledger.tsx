@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import type { Chip } from '../board/chips';
 import type { Counted, Frame, MapDomain, PathKind, PlayBoard } from '../board/types';
-import { capitalised, hasText, t } from '../texts';
+import { capitalised, hasText, isEnglish, t } from '../texts';
 
 const kMost = 4; // so many are all shown from the beginning
 
@@ -78,6 +78,7 @@ export function chipsOf(domain: MapDomain, robot: number[], other: number[], kin
     const more = (robot[k] ?? 0) - (other[k] ?? 0);
     const n = Math.abs(more);
     if (n < 0.005) return [];
-    return [{ kind: more > 0 ? 'own' : kind, text: shortened(`+${rounded(n)} ${n === 1 ? one.one : one.many}`), feature: k, thing: one.one }];
+    const text = `+${rounded(n)}`; // English alone has words for it
+    return [{ kind: more > 0 ? 'own' : kind, text: isEnglish() ? shortened(`${text} ${n === 1 ? one.one : one.many}`) : text, feature: k, thing: one.one }];
   });
 }
