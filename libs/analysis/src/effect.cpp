@@ -37,8 +37,6 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-std::string known_quantities() { return joined(outcomes(), ", ", &StudyOutcome::column); }
-
 bool is_product(const std::string& word) { return word == "x" || word == "*" || word == ":"; }
 
 // The number of group strategies and of compositions decides what can be tested.
@@ -117,7 +115,8 @@ EffectReading parse_effect(std::string_view text, const StudySpec& spec) {
   const auto quantity_words = words_of(text.substr(0, colon));
   const auto* const quantity = quantity_words.size() == 1 ? find_outcome(quantity_words.front()) : nullptr;
   if (quantity == nullptr) {
-    return refuse("there is no quantity '" + std::string{text.substr(0, colon)} + "'", "known: " + known_quantities());
+    return refuse("there is no quantity '" + std::string{text.substr(0, colon)} + "'",
+                  "known: " + joined(outcomes(), ", ", &StudyOutcome::column));
   }
   Effect effect;
   effect.outcome = quantity;

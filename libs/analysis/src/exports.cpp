@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <sstream>
 
 #include "kith/files/csv_writer.hpp"
 #include "shown.hpp"
@@ -21,14 +23,9 @@ std::string apa_p(double p) { return p < 0.0005 ? "p < .001" : "p = " + share_te
 
 // "the effect of g", "the interaction of a and b".
 std::string term_words(const std::string& name) {
-  std::vector<std::string> factors(1);
-  for (const char c : name) {
-    if (c == ':') {
-      factors.emplace_back();
-    } else {
-      factors.back() += c;
-    }
-  }
+  std::vector<std::string> factors;
+  std::istringstream parts{name};
+  for (std::string factor; std::getline(parts, factor, ':');) factors.push_back(factor);
   return (factors.size() > 1 ? "the interaction of " : "the effect of ") + listed(factors);
 }
 
@@ -81,34 +78,16 @@ std::string difference_sentence(const ComparisonFamily& family, const Comparison
 }
 
 std::string latex_escaped(const std::string& text) {
+  static const std::map<char, std::string> kWords{{'\\', "\\textbackslash{}"},
+                                                  {'~', "\\textasciitilde{}"},
+                                                  {'^', "\\textasciicircum{}"},
+                                                  {'<', "$<$"},
+                                                  {'>', "$>$"}};
   std::string result;
   for (const char c : text) {
-    switch (c) {
-      case '\\':
-        result += "\\textbackslash{}";
-        break;
-      case '~':
-        result += "\\textasciitilde{}";
-        break;
-      case '^':
-        result += "\\textasciicircum{}";
-        break;
-      case '<':
-      case '>':
-        result += std::string{"$"} + c + "$";
-        break;
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        result += '\\';
-        [[fallthrough]];
-      default:
-        result += c;
-    }
+    const auto word = kWords.find(c);
+    if (std::string_view{"&%$#_{}"}.find(c) != std::string_view::npos) result += '\\';
+    result += word == kWords.end() ? std::string{c} : word->second;
   }
   return result;
 }

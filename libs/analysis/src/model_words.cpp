@@ -69,8 +69,7 @@ void add_cell_warnings(const ModelData& data, const CellDesign& design, double a
   const auto spread = brown_forsythe(data.values, cells);
   if (spread && spread->p < alpha && largest > kUnequalSpread * smallest) {
     warnings.push_back(fmt::format(
-        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}), which F tests assume "
-        "not to",
+        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}), which F tests assume not to",
         formatted(smallest, ResultKind::kNumber), formatted(largest, ResultKind::kNumber), test_text(*spread)));
   }
 }
@@ -133,8 +132,7 @@ void warn_of_far_value(std::span<const double> values, std::span<const double> r
   if (p >= kHardlyByChance) return;
   warnings.push_back(
       fmt::format("the value {} is far from the others: {:.1f} standard deviations from what the model says without "
-                  "it; see whether "
-                  "it is an error, and what is found without it",
+                  "it; see whether it is an error, and what is found without it",
                   formatted(values[furthest], ResultKind::kNumber), largest));
 }
 

@@ -65,25 +65,16 @@ struct PeopleDifferences {
 
 PeopleDifferences differences_of_people(const RunTeams& teams, const BeliefTeams& beliefs,
                                         const std::vector<double>& values) {
-  struct Sums {
-    std::size_t composition = 0;
-    std::array<double, 2> sum{};
-    std::array<std::size_t, 2> n{};
-  };
-  std::map<std::string, Sums> people;
+  std::map<std::pair<std::size_t, std::string>, std::array<std::vector<double>, 2>> people;  // and their composition
   for (std::size_t i = 0; i < beliefs.rows.size(); ++i) {
     const auto row = beliefs.rows[i];
-    auto& sums = people[teams.people(row)];
-    sums.composition = teams.composition.codes[row];
-    sums.sum.at(beliefs.belief.codes[i]) += values[row];
-    ++sums.n.at(beliefs.belief.codes[i]);
+    people[{teams.composition.codes[row], teams.people(row)}].at(beliefs.belief.codes[i]).push_back(values[row]);
   }
   PeopleDifferences differences{{}, {columns::kComposition, teams.composition.levels, {}}};
-  for (const auto& [address, sums] : people) {
-    if (sums.n[0] == 0 || sums.n[1] == 0) continue;
-    differences.values.push_back(sums.sum[0] / static_cast<double>(sums.n[0]) -
-                                 sums.sum[1] / static_cast<double>(sums.n[1]));
-    differences.composition.codes.push_back(sums.composition);
+  for (const auto& [who, both] : people) {
+    if (both[0].empty() || both[1].empty()) continue;
+    differences.values.push_back(mean(both[0]) - mean(both[1]));
+    differences.composition.codes.push_back(who.first);
   }
   differences.composition = drop_unused(differences.composition);
   return differences;
@@ -200,11 +191,7 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
                      {"p-value, Brown-Forsythe", Kind::kP}},
                     {}};
   // Rows whose code is `level`; all of them for the number of levels.
-  struct Variation {
-    Estimable<VarianceRatio> ratio;
-    Estimable<TestResult> robust;
-  };
-  const auto add = [&](const std::string& name, std::size_t level) -> Variation {
+  const auto add = [&](const std::string& name, std::size_t level) {
     std::vector<double> team, individual, both;
     Factor belief{"belief", found->belief.levels, {}};
     Factor cluster{"people", is_clustered ? people.front().levels : std::vector<std::string>{}, {}};
@@ -232,15 +219,14 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
       finding.warnings.push_back(name + ": no variance ratio: " + ratio.reason());
     }
     row.push_back(cell_of(robust, &TestResult::p));
-    return {ratio, robust};
+    return std::pair{ratio, robust};
   };
   const auto [overall, robust] = add("all", composition.levels.size());
   finding.sentence = fmt::format("Standard deviations of {} over {} teams of all compositions.", label, part.size());
   if (overall) {
     finding.sentence = fmt::format(
         "The variance of {} under team beliefs is {:.2f} [{:.2f}, {:.2f}] times that under individual beliefs ({} "
-        "teams of "
-        "all compositions): {}.",
+        "teams of all compositions): {}.",
         label, overall->ratio.estimate, overall->ratio.low, overall->ratio.high, part.size(),
         overall->test.p >= options.alpha ? "no difference was found (" + p_text(overall->test.p) + ")"
         : overall->ratio.estimate < 1.0  ? "they make it vary less (" + p_text(overall->test.p) + ")"

@@ -32,8 +32,7 @@ WithinTest test_within(const std::vector<double>& values, const Factor& strategy
 void add_as_published(const ModelData& model, const AnalysisOptions& options, Finding& finding) {
   finding.warnings.push_back(fmt::format(
       "several strategies taught the same people ({} teams, {} groups of people), so people are a random intercept; "
-      "the "
-      "analysis of variance as published, which takes all teams as independent, misses small differences between "
+      "the analysis of variance as published, which takes all teams as independent, misses small differences between "
       "strategies and finds differences between compositions too often",
       model.values.size(), model.groups.front().levels.size()));
   const auto table = anova(model.values, model.factors, model.terms);
@@ -120,8 +119,8 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
                {std::string{people.empty() ? "one-way analyses of variance" : "mixed models of each composition"} +
                 (is_corrected ? fmt::format(" with {} correction for {}", name, counted(tested.size(), "composition"))
                               : std::string{})});
+    add_method(finding, eta_squared_method(options.alpha));
   }
-  if (!tested.empty()) add_method(finding, eta_squared_method(options.alpha));
   if (any_ranks)
     add_method(finding, {people.empty() ? "Kruskal-Wallis tests (uncorrected)" : "Friedman tests (uncorrected)"});
   const auto degrees = [residuals = family.residuals](const TermResult& test) {

@@ -134,8 +134,7 @@ std::vector<std::string> identifiers_of(const Dataset& data, const std::vector<s
     add(data.has(outer) ? outer + ":" + inner : inner);
   };
   for (const auto& column : data.columns()) {
-    const bool is_one = data.kind(column) == ColumnKind::kIdentifier || column == columns::kSeedAddress;
-    if (!is_one) continue;
+    if (data.kind(column) != ColumnKind::kIdentifier && column != columns::kSeedAddress) continue;
     if (column == columns::kMember) {
       within(data.has(columns::kTeam) ? columns::kTeam : columns::kSession, column);
     } else if (column == "user_id") {  // of trials

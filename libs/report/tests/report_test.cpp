@@ -24,6 +24,12 @@ using namespace kith::testing;
 constexpr double kTiny = 1e-12;
 constexpr double kStudent1 = 12.706204736432095;  // 97.5 % quantile of Student's t with 1 degree of freedom
 
+Json report_of(const std::vector<std::string>& settings) {
+  const ScratchFolder scratch;
+  run_tiny_study(scratch / "run", settings);
+  return Json::parse(build_report(scratch / "run"));
+}
+
 // The report of teams that were made up, computed once.
 class InventedReport : public ::testing::Test {
  protected:
@@ -291,9 +297,7 @@ TEST_F(RealReport, RefusesTablesThatWereChanged) {
 }
 
 TEST(Report, ShowsEstimatesBesideTheTruth) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "few", {"record.estimates=true", "replicates=4"});
-  const auto few = Json::parse(build_report(scratch / "few")).at("tables");
+  const auto few = report_of({"record.estimates=true", "replicates=4"}).at("tables");
   std::size_t periods = 0;
   for (const auto& row : few.at("mastery_calibration").at("rows")) {
     EXPECT_GE(row.at(1).get<double>(), row.at(2).get<double>());
@@ -303,8 +307,7 @@ TEST(Report, ShowsEstimatesBesideTheTruth) {
   EXPECT_GT(periods, 16u);                                      // of 8 teams
   EXPECT_TRUE(few.at("ability_estimates").at("rows").empty());  // of 8 people with each strategy
 
-  run_tiny_study(scratch / "more", {"record.estimates=true", "replicates=6"});
-  const auto more = Json::parse(build_report(scratch / "more")).at("tables");
+  const auto more = report_of({"record.estimates=true", "replicates=6"}).at("tables");
   const auto& first = more.at("ability_estimates").at("rows").at(0);
   EXPECT_EQ(first.at(1), 0);  // before the first period
   EXPECT_EQ(first.at(2), 12);
@@ -312,23 +315,17 @@ TEST(Report, ShowsEstimatesBesideTheTruth) {
 }
 
 TEST(Report, SaysInHowManyTeamsBeliefsWereImpoverished) {
-  const ScratchFolder scratch;
-  const auto notes_of = [&](const std::string& folder, const std::vector<std::string>& settings) {
-    run_tiny_study(scratch / folder, settings);
-    return Json::parse(build_report(scratch / folder)).at("notes").dump();
-  };
+  const auto notes_of = [](const std::vector<std::string>& settings) { return report_of(settings).at("notes").dump(); };
   const std::string few = "learner.N.particles=20";
-  EXPECT_THAT(notes_of("few", {"record.beliefs=true", few, "learner.P.particles=20"}),
+  EXPECT_THAT(notes_of({"record.beliefs=true", few, "learner.P.particles=20"}),
               HasSubstr("teams (100 %), the belief of a member had fewer than 10 effective particles"));
-  EXPECT_THAT(notes_of("many", {"record.beliefs=true", "learner.N.particles=1000", "learner.P.particles=1000"}),
+  EXPECT_THAT(notes_of({"record.beliefs=true", "learner.N.particles=1000", "learner.P.particles=1000"}),
               Not(HasSubstr("effective particles")));
-  EXPECT_THAT(notes_of("unrecorded", {few}), Not(HasSubstr("effective particles")));
+  EXPECT_THAT(notes_of({few}), Not(HasSubstr("effective particles")));
 }
 
 TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run", {"record.level=\"team\""});
-  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto document = report_of({"record.level=\"team\""});
   std::set<std::string> tables;
   for (const auto& [name, table] : document.at("tables").items()) tables.insert(name);
   EXPECT_THAT(tables, ::testing::UnorderedElementsAre("cells", "teams", "completion", "timings", "parameters"));
@@ -337,22 +334,19 @@ TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
 }
 
 TEST(Report, LeadsWithTheExamBeyondThreeFeatures) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run", {"domain=\"rescue-floor\"", "replicates=1", "design.strategies=[\"common\"]",
-                                   "record.level=\"team\"", "stop.max_periods=1"});
-  const auto overview = Json::parse(build_report(scratch / "run")).at("overview");
+  const auto overview = report_of({"domain=\"rescue-floor\"", "replicates=1", "design.strategies=[\"common\"]",
+                                   "record.level=\"team\"", "stop.max_periods=1"})
+                            .at("overview");
   EXPECT_EQ(overview.at("leads"), "exam");
   EXPECT_THAT(overview.at("answers").at(1).at("outcome"), "share right in the exam");
   EXPECT_THAT(overview.at("limits").dump(), HasSubstr("the share of starts from which members predict the robot"));
-  run_tiny_study(scratch / "three", {"replicates=1", "record.level=\"team\"", "record.exam=\"end\""});
-  EXPECT_FALSE(Json::parse(build_report(scratch / "three")).at("overview").contains("leads"));
+  const auto three = report_of({"replicates=1", "record.level=\"team\"", "record.exam=\"end\""});
+  EXPECT_FALSE(three.at("overview").contains("leads"));
 }
 
 TEST(Report, TellsSettingsOfVariedKeysApart) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run",
-                 {"replicates=1", "design.strategies=[\"common\"]", "design.vary={\"stop.max_periods\"=[1, 40]}"});
-  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto document =
+      report_of({"replicates=1", "design.strategies=[\"common\"]", "design.vary={\"stop.max_periods\"=[1, 40]}"});
   EXPECT_EQ(document.at("overview").at("strategies"),
             Json::parse(R"(["common [stop.max_periods=1]", "common [stop.max_periods=40]"])"));
   EXPECT_EQ(document.at("labels").at("strategies").at("common [stop.max_periods=1]"), "Max periods 1");
@@ -364,11 +358,9 @@ TEST(Report, TellsSettingsOfVariedKeysApart) {
 
 // Against what the tables of cells and teams say of the same.
 TEST(Report, SetsStrategiesAgainstAVariedKey) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run", {"replicates=4", "record.exam=\"end\"",
-                                   "design.strategies=[\"common\", \"joint\", \"individual-low\"]",
-                                   "design.vary={\"learner.N.kind\"=[\"bayesian\", \"imitating\", \"slipping\"]}"});
-  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto document =
+      report_of({"replicates=4", "record.exam=\"end\"", "design.strategies=[\"common\", \"joint\", \"individual-low\"]",
+                 "design.vary={\"learner.N.kind\"=[\"bayesian\", \"imitating\", \"slipping\"]}"});
   ASSERT_THAT(document.at("matrices"), SizeIs(1));
   const auto& matrix = document.at("matrices").at(0);
   EXPECT_EQ(matrix.at("factors"), Json::parse(R"(["learner.N.kind", "strategy"])"));
@@ -406,11 +398,9 @@ TEST(Report, SetsStrategiesAgainstAVariedKey) {
 
 // Every team counts, whatever else varies.
 TEST(Report, SetsCompositionsAgainstAVariedKeyOverAllStrategies) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run",
-                 {"replicates=2", "design.compositions=[\"NN\", \"NP\", \"PP\"]",
-                  "design.strategies=[\"common\", \"joint\"]", "design.vary={\"stop.max_periods\"=[1, 2, 40]}"});
-  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto document =
+      report_of({"replicates=2", "design.compositions=[\"NN\", \"NP\", \"PP\"]",
+                 "design.strategies=[\"common\", \"joint\"]", "design.vary={\"stop.max_periods\"=[1, 2, 40]}"});
   ASSERT_THAT(document.at("matrices"), SizeIs(1));
   for (const auto& row : document.at("matrices").at(0).at("table").at("rows")) {
     const auto setting = " [stop.max_periods=" + row.at(1).get<std::string>() + "]";
@@ -424,10 +414,8 @@ TEST(Report, SetsCompositionsAgainstAVariedKeyOverAllStrategies) {
 }
 
 TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run",
-                 {"design.strategies=[\"common\", \"joint\"]", "design.compositions=[\"NN\", \"PP\"]"});
-  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto document =
+      report_of({"design.strategies=[\"common\", \"joint\"]", "design.compositions=[\"NN\", \"PP\"]"});
   // Every question has its p-value, and an effect where it is small, else what any two levels differ by at most.
   const auto& answers = document.at("overview").at("answers");
   std::size_t shown = 0;
@@ -452,9 +440,7 @@ TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
 }
 
 TEST(Report, OfOneCellHasNothingToTest) {
-  const ScratchFolder scratch;
-  run_tiny_study(scratch / "run", {"design.strategies=[\"common\"]"});
-  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto document = report_of({"design.strategies=[\"common\"]"});
   EXPECT_THAT(document.at("findings"), IsEmpty());
   EXPECT_THAT(document.at("notes"),
               ElementsAre(::testing::ResultOf([](const Json& note) { return note.get<std::string>(); },
