@@ -291,7 +291,7 @@ likelihood_ratios <- function(model, fit_with) {
   do.call(rbind, rows)
 }
 keep_ratios <- function(model, caption, tests) {
-  set_tests("chi-squared", true_name(model, tests$term), tests$df, NA, tests$chi, tests$p)
+  if (is.null(found$tests)) set_tests("chi-squared", true_name(model, tests$term), tests$df, NA, tests$chi, tests$p)
   keep(caption, data.frame(term = true_name(model, tests$term), df = tests$df, "chi-squared" = tests$chi,
                            "p-value" = tests$p, check.names = FALSE))
 }
@@ -710,7 +710,7 @@ counts <- function(model, plan) {
     if (!all(observed)) return()
   }
   if (model$is_mixed) {
-    fit_with <- function(formula) lme4::glmer(formula, poisson, model$data,
+    fit_with <- function(formula) lme4::glmer(formula, model$data, poisson,
         control = lme4::glmerControl(optimizer = "bobyqa"))
     model$fit <- fit_with(model$formula)
     spread <- sum(residuals(model$fit, "pearson")^2) / df.residual(model$fit)

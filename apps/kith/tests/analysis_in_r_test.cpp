@@ -95,6 +95,8 @@ TEST_F(AnalysisInR, FitsRatingsCountsAndCrossedPeople) {
     return out_of(words);
   };
   EXPECT_THAT(sentence({"ease ~ g", "--ordinal"}), HasSubstr("Proportional odds model of ease"));
+  // The test for a paper is that of the table above it.
+  EXPECT_THAT(sentence({"n ~ g + (1|person)", "--count"}), AllOf(HasSubstr("Poisson"), Not(HasSubstr("squared("))));
   EXPECT_THAT(sentence({"n ~ g", "--count"}), HasSubstr("Ratios of means"));
   EXPECT_THAT(sentence({"y ~ g + age + (1|person) + (1|item)"}),
               AllOf(HasSubstr("Variances and intraclass correlations"), HasSubstr("Slopes of covariates")));
