@@ -557,7 +557,8 @@ linear <- function(model, plan) {
       5)], "analysis of variance"),
                 if (length(model$terms) > 1) " (type II sums of squares)"))
   method(paste(per_cent(1 - 2 * plan$alpha), "intervals of partial eta squared from the non-central F distribution"))
-  if (length(unique(table(model$data[model$factors]))) > 1 && length(model$terms) > 1 && !anyNA(coef(model$fit))) {
+  if (k > 0 && length(unique(table(model$data[model$factors]))) > 1 && length(model$terms) > 1 &&
+      !anyNA(coef(model$fit))) {
     sums <- lapply(setNames(model$factors, model$factors), function(x) "contr.sum")
     three <- anova_table(car::Anova(lm(model$fixed, data = model$data, contrasts = sums), type = 3))
     keep("Analysis of variance (type III)", three$table[1:5])

@@ -98,6 +98,7 @@ TEST_F(AnalysisInR, FitsRatingsCountsAndCrossedPeople) {
   // The test for a paper is that of the table above it.
   EXPECT_THAT(sentence({"n ~ g + (1|person)", "--count"}), AllOf(HasSubstr("Poisson"), Not(HasSubstr("squared("))));
   EXPECT_THAT(sentence({"n ~ g", "--count"}), HasSubstr("Ratios of means"));
+  EXPECT_THAT(sentence({"y ~ age"}), AllOf(HasSubstr("Slopes of covariates"), HasSubstr("F(1, 94)")));
   EXPECT_THAT(sentence({"y ~ g + age + (1|person) + (1|item)"}),
               AllOf(HasSubstr("Variances and intraclass correlations"), HasSubstr("Slopes of covariates")));
 }

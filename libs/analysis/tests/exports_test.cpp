@@ -42,7 +42,7 @@ TEST(ResultsParagraph, HasThePlannedContrasts) {
 TEST(ResultsParagraph, SaysWhatWasNotFoundAndNamesInteractions) {
   std::string text = "a,b,y\n";
   for (int i = 0; i < 24; ++i)
-    text += std::to_string(i % 2) + "," + std::to_string(i / 2 % 2) + "," + std::to_string(i * 7 % 11) + "\n";
+    text += "a" + std::to_string(i % 2) + ",b" + std::to_string(i / 2 % 2) + "," + std::to_string(i * 7 % 11) + "\n";
   const auto results = analyzed(text, "y ~ a*b").findings.front().results;
   EXPECT_THAT(results, AllOf(HasSubstr("The effect of a was not significant, F(1, 20) = "),
                              HasSubstr("The interaction of a and b was not significant, F(1, 20) = ")));

@@ -67,6 +67,7 @@ TEST(BalancedTable, IsNothingElse) {
   for (const auto* const formula : {"y ~ g + h", "y ~ g + (1|h)", "y ~ x", "y ~", "y", "log(y) ~ g"})
     EXPECT_FALSE(can(data, formula)) << formula;
   EXPECT_FALSE(can(Dataset::parse(std::string{kFour} + "a,p,9\n", "t.csv"), "y ~ g*h"));
+  EXPECT_FALSE(can(Dataset::parse("dose;y\n0,5;1\n0,5;2\n1;3\n1;7\n", "t.csv"), "y ~ dose"));  // a covariate
   data.set_kind("h", ColumnKind::kIdentifier);
   EXPECT_FALSE(can(data, "y ~ g"));
 }
