@@ -757,8 +757,10 @@ survival_of <- function(model, plan, observed) {
       strata <- survival::strata
       test <- if (length(others) == 0) survival::survdiff(time ~ group)
               else survival::survdiff(time ~ group + strata(cell))
-      data.frame(factor = true_name(model, factor), "chi-squared" = test$chisq, df = nlevels(group) - 1,
-                 "p-value" = pchisq(test$chisq, nlevels(group) - 1, lower.tail = FALSE), check.names = FALSE)
+      # Groups that nobody was left of at the first event count for nothing.
+      df <- sum(rowSums(as.matrix(test$exp)) > 0) - 1
+      data.frame(factor = true_name(model, factor), "chi-squared" = test$chisq, df = df,
+                 "p-value" = pchisq(test$chisq, df, lower.tail = FALSE), check.names = FALSE)
     })
     keep(if (length(model$factors) > 1) "Log-rank tests, stratified by the other factors" else "Log-rank test",
         do.call(rbind, rows))

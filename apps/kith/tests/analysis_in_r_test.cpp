@@ -103,5 +103,16 @@ TEST_F(AnalysisInR, FitsRatingsCountsAndCrossedPeople) {
               AllOf(HasSubstr("Variances and intraclass correlations"), HasSubstr("Slopes of covariates")));
 }
 
+// Nobody of c is left when the first ends, so that two groups are compared: chi-squared(1).
+TEST_F(AnalysisInR, LogRankTestsCompareGroupsThatWereLeft) {
+  SKIP_WITHOUT_R();
+  const auto table = file("t.csv", "g,n,done\na,3,1\na,5,1\na,6,1\nb,4,1\nb,7,1\nb,8,0\nc,1,0\nc,2,0\nc,2,0\n");
+  const auto ran = Json::parse(out_of({"analyze", table, "--model", "n ~ g", "--observed", "done", "--json"}));
+  Json row;
+  for (const auto& one : ran.at("findings").at(0).at("tables"))
+    if (one.at("caption") == "Log-rank test") row = one.at("rows").at(0);
+  EXPECT_EQ(row.at("df"), 1);
+}
+
 }  // namespace
 }  // namespace kith::testing
