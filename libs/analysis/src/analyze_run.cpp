@@ -113,37 +113,38 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
                                       "' of the study: its levels are not all among the teams taught together");
     }
   }
-  const auto add = [&](auto analyse, const std::string& otherwise) {
+  const auto add = [&](const RunTeams& some, const Outcomes& outcomes, auto analyse, const std::string& otherwise) {
     bool any = false;
-    for (const auto& [name, values] : responses) {
-      auto finding = analyse(teams, name, values, for_response(planned, name));
+    for (const auto& [name, values] : outcomes) {
+      auto finding = analyse(some, name, values, for_response(planned, name));
       if (!finding) continue;
       any = true;
       analysis.findings.push_back(std::move(*finding));
     }
     if (!any) analysis.not_analysed.push_back(otherwise);
   };
-  if (auto finding = primary(teams, planned.contrasts, options)) {
+  const auto [once, means] = over_settings(teams, responses);
+  if (auto finding = primary(once, means, planned.contrasts, options)) {
     analysis.notes.emplace_back(
         "the study was planned to test its primary contrasts, which come first and are corrected among themselves; "
         "everything else is exploratory");
     analysis.findings.push_back(std::move(*finding));
   }
-  add(effects, "effects of strategy and composition: needs two group strategies or two compositions");
-  add(effects_within, "strategy within each composition: needs two group strategies and two compositions");
-  add(beliefs,
+  add(teams, responses, effects, "effects of strategy and composition: needs two group strategies or two compositions");
+  add(once, means, effects_within, "strategy within each composition: needs two group strategies and two compositions");
+  add(once, means, beliefs,
       "team beliefs against individual beliefs: needs a strategy for the team's belief (common, joint) and one "
       "for a member's (individual-low, individual-high)");
   for (const auto& [name, values] : responses) {
     if (auto finding = variation(teams, name, values, options)) analysis.findings.push_back(std::move(*finding));
   }
-  add(paired, "same people, different strategies: " + without_pairs(teams));
+  add(once, means, paired, "same people, different strategies: " + without_pairs(teams));
   if (auto finding = demonstrations(teams, run, options)) {
     analysis.findings.push_back(std::move(*finding));
   } else {
     analysis.not_analysed.push_back("manipulation check: needs two group strategies");
   }
-  add(against_baseline, "taught together or alone: needs the baseline and a group strategy");
+  add(once, means, against_baseline, "taught together or alone: needs the baseline and a group strategy");
   if (analysis.findings.empty()) {
     throw Error{{Diagnostic{.id = "E0906",
                             .message = "nothing can be compared: one strategy, one composition",

@@ -71,7 +71,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
       if (is_testable(factors, contrast)) testable.push_back(contrast);
     }
 
-    if (const auto finding = primary(teams, testable, options)) add(finding, primary_hypotheses(design));
+    if (const auto finding = primary(teams, responses, testable, options)) add(finding, primary_hypotheses(design));
     for (const auto& [name, values] : responses) {
       auto planned = options;
       std::vector<PlannedContrast> contrasts;

@@ -35,6 +35,10 @@ void add_as_published(const ModelData& model, const AnalysisOptions& options, Fi
       "the analysis of variance as published, which takes all teams as independent, misses small differences between "
       "strategies and finds differences between compositions too often",
       model.values.size(), model.groups.front().levels.size()));
+  if (model.groups.size() > 1)
+    finding.warnings.push_back(
+        "this model takes people in another setting as other people, and so finds differences between strategies too "
+        "often; other tests of strategies take means over settings");
   const auto table = anova(model.values, model.factors, model.terms);
   auto family = tests_of(table);
   for (std::size_t t = 0; t < table.terms.size(); ++t) {

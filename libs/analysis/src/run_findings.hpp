@@ -10,7 +10,8 @@ namespace kith {
 // does not allow it.
 
 // The primary ones of these contrasts, each about one response, corrected among themselves; nothing without any.
-[[nodiscard]] std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedContrast>& contrasts,
+[[nodiscard]] std::optional<Finding> primary(const RunTeams& teams, const Outcomes& outcomes,
+                                             const std::vector<PlannedContrast>& contrasts,
                                              const AnalysisOptions& options);
 // The contrasts as they are tested: those without a response become one for each outcome of the teams.
 [[nodiscard]] std::vector<PlannedContrast> by_response(const RunTeams& teams,

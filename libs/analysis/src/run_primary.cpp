@@ -21,8 +21,8 @@ std::vector<PlannedContrast> by_response(const RunTeams& teams, const std::vecto
   return result;
 }
 
-std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedContrast>& contrasts,
-                               const AnalysisOptions& options) {
+std::optional<Finding> primary(const RunTeams& teams, const Outcomes& outcomes,
+                               const std::vector<PlannedContrast>& contrasts, const AnalysisOptions& options) {
   auto hypotheses = by_response(teams, contrasts);
   hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), [](const auto& one) { return !one.primary; }),
                    hypotheses.end());
@@ -38,7 +38,6 @@ std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedC
   ComparisonFamily family{.kind = ComparisonFamily::Kind::kPrimary};
   std::vector<double> p_values;
   for (const auto& hypothesis : hypotheses) {
-    const auto outcomes = outcomes_of(teams);
     const auto values = std::find_if(outcomes.begin(), outcomes.end(),
                                      [&](const auto& outcome) { return outcome.first == hypothesis.response; });
     const auto model = team_model(teams, rows, hypothesis.response, values->second);

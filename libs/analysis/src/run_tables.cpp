@@ -1,7 +1,9 @@
 #include "run_tables.hpp"
 
 #include <algorithm>
+#include <map>
 
+#include "kith/analysis/moments.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/column_names.hpp"
 #include "kith/files/document.hpp"
@@ -63,11 +65,28 @@ RunTeams read_teams(const PublishedRun& run) {
   return teams;
 }
 
-std::vector<std::pair<std::string, std::vector<double>>> outcomes_of(const RunTeams& teams) {
-  std::vector<std::pair<std::string, std::vector<double>>> all;
+Outcomes outcomes_of(const RunTeams& teams) {
+  Outcomes all;
   for (const auto* outcome : analysed_outcomes(teams.has_exam(), exam_leads(teams.has_exam(), teams.num_features)))
     all.emplace_back(outcome->column, teams.values(*outcome));
   return all;
+}
+
+std::pair<RunTeams, Outcomes> over_settings(const RunTeams& teams, Outcomes outcomes) {
+  if (teams.varied.empty()) return {teams, std::move(outcomes)};
+  std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> same;  // strategy and people
+  for (std::size_t i = 0; i < teams.size(); ++i)
+    same[{teams.strategy.codes[i], teams.records[i].seed_address}].push_back(i);
+  for (auto& [name, values] : outcomes) {
+    const auto all = std::exchange(values, {});
+    for (const auto& [who, rows] : same) values.push_back(mean(selected(all, rows)));
+  }
+  std::vector<std::size_t> first;
+  for (const auto& [who, rows] : same) first.push_back(rows.front());
+  const std::vector<std::string> none(first.size());
+  const auto records = selected(teams.records, first);
+  return {{selected(teams.strategy, first), selected(teams.composition, first), {}, none, records, teams.num_features},
+          std::move(outcomes)};
 }
 
 std::vector<std::size_t> group_teams(const RunTeams& teams) {

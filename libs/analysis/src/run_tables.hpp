@@ -32,8 +32,12 @@ struct RunTeams {
 // @throws kith::Error as analyze_run does.
 [[nodiscard]] RunTeams read_teams(const PublishedRun& run);
 
+using Outcomes = std::vector<std::pair<std::string, std::vector<double>>>;
 // The outcomes that a run has, in the order in which they are analysed: columns of teams.csv and their values.
-[[nodiscard]] std::vector<std::pair<std::string, std::vector<double>>> outcomes_of(const RunTeams& teams);
+[[nodiscard]] Outcomes outcomes_of(const RunTeams& teams);
+
+// Settings make no further people: a team for each strategy and people, with the means of all settings.
+[[nodiscard]] std::pair<RunTeams, Outcomes> over_settings(const RunTeams& teams, Outcomes outcomes);
 
 // The positions of teams that were taught as groups.
 [[nodiscard]] std::vector<std::size_t> group_teams(const RunTeams& teams);

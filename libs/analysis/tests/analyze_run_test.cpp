@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "findings.hpp"
 #include "kith/analysis/exports.hpp"
@@ -269,11 +270,23 @@ TEST_F(RunTest, ComparesBeliefsWithinTheSamePeople) {
   EXPECT_EQ(finding(analyse(), "periods-variation").tables.at(0).columns.at(8).name, "p-value, jackknife");
 }
 
-TEST_F(RunTest, ComparesStrategiesOnTheSamePeople) {
-  write("teams.csv", teams());
-  const auto found = finding(analyse(), "periods-paired");
-  // Every pair differs by exactly one: the difference is certain and has no spread, which no t test can judge.
-  EXPECT_THAT(found.warnings, Contains("common - joint: no test: all differences are equal"));
+// A setting that changes nothing adds nobody: what is said of the strategies stays, to the last digit.
+TEST_F(RunTest, CountsTheSamePeopleOnceOverSettings) {
+  fs::create_directories(folder_ / "inputs");
+  write_file_atomically(folder_ / "inputs" / "study.toml",
+                        "[[contrast]]\nname = \"H\"\nprimary = true\nweights = { joint = 1, individual-low = -1 }\n");
+  const auto text = with_individual_beliefs(teams());
+  std::string copies, line;
+  for (std::istringstream rows{text}; std::getline(rows, line);) {
+    using Keys = std::vector<std::string>;
+    for (const auto& key : copies.empty() ? Keys{"stop.max_periods"} : Keys{"5", "6", "7"})
+      copies += std::string{line}.insert(line.find(',', line.find(',') + 1) + 1, key + ",") + "\n";
+  }
+  const auto once = analyse(text), thrice = analyse(copies);
+  EXPECT_THAT(finding(thrice, "knowledge").warnings, Contains(HasSubstr("in another setting")));
+  for (const auto* id :
+       {"primary", "knowledge-within-composition", "knowledge-beliefs", "knowledge-paired", "knowledge-baseline"})
+    EXPECT_EQ(finding(thrice, id).results, finding(once, id).results) << id;
 }
 
 // Eight teams taught alone need twice the periods of their people, sixteen taught together one less or as many: by

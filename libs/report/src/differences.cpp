@@ -82,7 +82,8 @@ Json differences(const FirstScreen& screen) {
   Json names = Json::array();
   for (const auto& outcome : outcomes)
     names.push_back({{"name", capitalised(std::string{outcome.phrase})}, {"digits", outcome.digits}});
-  return {{"interval", screen.paired ? "t intervals of differences within the same people" : "Welch's t intervals"},
+  const bool paired = screen.paired && (num_together(screen) > 1 || compares_with_alone(screen));
+  return {{"interval", paired ? "t intervals of differences within the same people" : "Welch's t intervals"},
           {"outcomes", std::move(names)},
           {"groups", std::move(groups)}};
 }

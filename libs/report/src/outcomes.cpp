@@ -50,9 +50,10 @@ TeamValues by_people(const FirstScreen& screen, const StudyOutcome& outcome,
   for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
     const double value = outcome.of(screen.data.teams[i]);
     if (!is_of(i) || !std::isfinite(value)) continue;
-    const auto people = screen.paired ? TeamPeople{series_of(screen, i).variant, composition_of(screen, i),
-                                                   screen.data.teams[i].address.replicate}
-                                      : TeamPeople{0, "", i};
+    const auto strategy = screen.paired ? "" : series_of(screen, i).strategy + " ";
+    const auto people =
+        screen.simulated ? TeamPeople{0, strategy + composition_of(screen, i), screen.data.teams[i].address.replicate}
+                         : TeamPeople{0, "", i};
     values[people].push_back(value);
   }
   return values;

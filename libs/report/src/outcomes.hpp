@@ -42,7 +42,7 @@ inline const StudyOutcome kPersonPeriods{
 
 // The finite values of the teams that were taught together, or alone.
 [[nodiscard]] Values values_of(const FirstScreen& screen, const StudyOutcome& outcome, bool alone);
-// The finite values of some teams. Where a replicate is not the same people everywhere, no two teams are of the same.
+// The finite values of some teams. A replicate is the same people at all settings, and if paired under all strategies.
 [[nodiscard]] TeamValues by_people(const FirstScreen& screen, const StudyOutcome& outcome,
                                    const std::function<bool(std::size_t)>& is_of);
 

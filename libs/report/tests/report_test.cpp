@@ -352,6 +352,7 @@ TEST(Report, TellsSettingsOfVariedKeysApart) {
   EXPECT_EQ(document.at("labels").at("strategies").at("common [stop.max_periods=1]"), "Max periods 1");
   EXPECT_EQ(document.at("overview").at("factors"), Json::parse(R"(["stop.max_periods"])"));
   EXPECT_FALSE(document.contains("matrices"));  // one strategy
+  EXPECT_EQ(document.at("overview").at("differences").at("interval"), "Welch's t intervals");
   // One team a cell has no spread.
   EXPECT_TRUE(document.at("tables").at("cells").at("rows").at(0).at(5).is_null());
 }
@@ -394,6 +395,19 @@ TEST(Report, SetsStrategiesAgainstAVariedKey) {
     const bool is_best = mean(values) <= mean(least) + kTiny;
     EXPECT_EQ(row.at(place("exam_regret_standing")), is_best ? "best" : (is_clear ? "" : "not clearly worse")) << row;
   }
+}
+
+// A setting that changes nothing adds nobody.
+TEST(Report, CountsTheSamePeopleOnceOverSettings) {
+  const auto compositions_with = [](const std::string& settings) {
+    return report_of({"replicates=3", "design.compositions=[\"NN\", \"PP\"]",
+                      "design.vary={\"stop.max_periods\"=[" + settings + "]}"})
+        .at(Json::json_pointer{"/overview/differences/groups"})
+        .back();
+  };
+  const auto once = compositions_with("500"), twice = compositions_with("500,501");
+  EXPECT_EQ(once.at("factor"), "composition");
+  EXPECT_EQ(once.at("rows"), twice.at("rows"));
 }
 
 // Every team counts, whatever else varies.
