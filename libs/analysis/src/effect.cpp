@@ -75,7 +75,14 @@ std::optional<std::string> read_term(const std::vector<std::string>& words, cons
       if (!selection) return "the study has no teams '" + *word + "'";
       (word == &words[0] ? effect.first : effect.second) = *selection;
     }
-    if (effect.first == effect.second) return "an effect compares different teams";
+    for (const auto& strategy : spec.strategies) {
+      for (const auto& composition : spec.compositions) {
+        const TeamAddress team{.strategy = strategy.name, .composition = composition};
+        if (effect.first.contains(team) && effect.second.contains(team))
+          return "an effect compares different teams, but " + strategy.name +
+                 " is on both sides; list the others, as in common+individual-low - joint";
+      }
+    }
   } else {
     return "the effect is not understood";
   }

@@ -71,9 +71,9 @@ TEST(Findings, OfThePaperAreGood) {
 
 TEST(Effect, IsWrittenAsItIsRead) {
   const auto paper = *load_study("paper").study;
-  for (const auto* text : {"periods: strategy", "knowledge: composition", "knowledge: strategy x composition",
-                           "area_sr: strategy in NNP", "periods: strategy eta2 = 0.02",
-                           "knowledge: individual-low - group/NNN", "completed: joint - baseline = -0.5"}) {
+  for (const auto* text :
+       {"periods: strategy", "knowledge: composition", "knowledge: strategy x composition", "area_sr: strategy in NNP",
+        "periods: strategy eta2 = 0.02", "knowledge: baseline - group/NNN", "completed: joint - baseline = -0.5"}) {
     const auto reading = parse_effect(text, paper.variants.front());
     ASSERT_TRUE(reading.effect) << text << ": " << reading.problem;
     EXPECT_EQ(to_string(*reading.effect), text);
@@ -88,6 +88,7 @@ TEST(Effect, IsRefusedWithAReason) {
       {"periods: strategy in XXX", "no composition 'XXX'"},
       {"periods: joint - nobody", "the study has no teams 'nobody'"},
       {"periods: joint - joint", "different teams"},
+      {"periods: group - joint", "joint is on both sides; list the others"},
       {"periods: joint - common eta2 = 0.1", "own unit"},
       {"periods: strategy = 0.1", "eta2"},
       {"periods: strategy eta2 = 1.5", "between 0 and 1"},
