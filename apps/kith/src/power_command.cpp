@@ -56,6 +56,19 @@ Effect effect_of(const std::string& text, const StudySpec& spec) {
   return *reading.effect;
 }
 
+// Which planned contrasts kith power cannot plan for; empty: none.
+std::string without_power(const StudySpec& spec) {
+  std::vector<std::string> names;
+  for (const auto& contrast : spec.contrasts) {
+    if (effects_of(contrast, spec).empty()) names.push_back("'" + contrast.name + "'");
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "no power is estimated for the planned {}: only for a mean of strategies less that of others, and for two "
+      "compositions",
+      fmt::join(names, ", "));
+}
+
 // What the study plans to compare; else what the default analyses test, as far as the design allows. Beyond three
 // features the outcomes of the exam come first and knowledge, which says little there, comes last.
 std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_features) {
@@ -74,6 +87,7 @@ std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_featu
       planned.insert(planned.end(), all.begin(), all.end());
     }
     if (!planned.empty()) return planned;
+    refuse(without_power(spec) + "; name what to plan for with --effect");
   }
   std::vector<const char*> texts;
   const auto add = [&](const std::vector<const char*>& more) { texts.insert(texts.end(), more.begin(), more.end()); };
@@ -151,7 +165,9 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   const auto& spec = reading.study->variants.front();
   std::vector<Effect> effects;
   for (const auto& text : options.effects) effects.push_back(effect_of(text, spec));
+  const auto missing = effects.empty() ? without_power(spec) : "";
   if (effects.empty()) effects = default_effects(spec, atlas.domain().num_features());
+  if (!missing.empty()) console.warning(missing + "; see --effect");
   PowerOptions power;
   power.teams = sizes_of(options, spec.replicates);
   power.alpha = options.alpha;
@@ -181,7 +197,8 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   if (!options.preregister.empty()) {
     const PlannedStudy planned{
         spec,          atlas.domain(), freeze(reading),
-        options.study, utc_now(),      options.results.empty() ? "results/" + spec.id : options.results};
+        options.study, utc_now(),      options.results.empty() ? "results/" + spec.id : options.results,
+        missing};
     write_file_atomically(options.preregister, preregistration_text(planned, curves, cells, power));
   }
   if (console.json()) {

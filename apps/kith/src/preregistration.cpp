@@ -94,7 +94,7 @@ std::string cells_text(std::span<const PowerCurve> curves, std::span<const Effec
 }
 
 std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curves, std::span<const EffectCells> cells,
-                        const PowerOptions& options) {
+                        const PowerOptions& options, const std::string& missing) {
   auto text = fmt::format(
       "## Sample size\n\n{} teams per cell. Power at a significance level of {:g} was estimated by drawing {} studies "
       "of each size from simulated teams (`kith power`{}):\n\n"
@@ -103,6 +103,7 @@ std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curve
       spec.replicates, options.alpha, options.draws, options.paired ? ", `--paired`" : "", spec.replicates,
       options.target);
   for (const auto& curve : curves) text += size_row(curve, spec.replicates);
+  if (!missing.empty()) text += "\nNote: " + missing + ".\n";
   text += cells_text(curves, cells);
   text += fmt::format(
       "\n## Stopping rule\n\nData collection ends when every cell has {} teams. No test is made before that, and no "
@@ -208,7 +209,7 @@ std::string preregistration_text(const PlannedStudy& planned, std::span<const Po
                [&](const auto& one) { return !primary.empty() && !is_primary(one); });
   auto text = fmt::format("# Preregistration: {}\n\n", spec.title.empty() ? spec.id : spec.title);
   text += identity_text(planned) + hypotheses_text(primary, plan) + design_text(spec) +
-          sample_text(spec, curves, cells, options) +
+          sample_text(spec, curves, cells, options, planned.missing) +
           "## Exclusions and missing data\n\nNo team is excluded. Teams that are stopped before they have learned "
           "everything are analysed with the periods and the knowledge that they have reached, and their number is "
           "reported.\n\n## Analyses\n\n" +

@@ -18,6 +18,7 @@ struct PlannedStudy {
   std::string source;   ///< The study as named on the command line.
   std::string written;  ///< When: UTC, "2026-01-31T12:00:00Z".
   std::string results;  ///< The folder in which a run of it is looked for.
+  std::string missing;  ///< What no power was estimated for, as a sentence; empty: nothing.
 };
 
 /// A preregistration of a study as Markdown: hypotheses, design, sample size, stopping, exclusions, analyses, and what

@@ -159,38 +159,26 @@ TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
     EXPECT_THAT(plan, HasSubstr("| " + name + " | " + digest.get<std::string>() + " |"));
 }
 
-// The planned contrasts are the hypotheses, in the plan, the analysis and the report; all else is exploratory.
+// The planned contrasts are the hypotheses, in the plan, the analysis and the report; all else is exploratory. One that
+// no power is estimated for is named.
 TEST(PowerCommand, PreregistersThePrimaryContrastsAsTheHypotheses) {
   const Scratch scratch;
-  const auto study = scratch / "study.toml";
-  std::ofstream{study} << R"(schema = "kith.study/1"
-id = "two"
-seed = 1
-domain = "item-delivery"
-replicates = 4
-[design]
-strategies = ["common", "individual-low"]
-compositions = ["NP"]
-[[contrast]]
-name = "the team's belief"
-of = ["common"]
-against = ["individual-low"]
-response = "knowledge"
-primary = true
-[learner.N]
-ability = { mean = 0.703, sd = 0.034 }
-confirm_gain = { half_normal = 0.033 }
-correct_gain = { half_normal = 0.056 }
-[learner.P]
-ability = { mean = 0.809, sd = 0.025 }
-confirm_gain = { half_normal = 0.022 }
-correct_gain = { half_normal = 0.052 }
-)";
+  const auto run_planned = [](std::vector<std::string> words) {
+    words.insert(words.end(), {"--set", "replicates=4", "--set", "design.strategies=[\"common\",\"individual-low\"]",
+                               "--set", "design.compositions=[\"NN\",\"NP\",\"PP\"]", "--set",
+                               "contrast=[{name=\"the team's belief\",of=[\"common\"],against=[\"individual-low\"],"
+                               "response=\"knowledge\",primary=true},"
+                               "{name=\"any P\",factor=\"composition\",of=[\"NP\",\"PP\"],against=[\"NN\"]}]"});
+    return run_small(words);
+  };
   const auto file = scratch / "plan.md";
-  const auto ran = run_small({"power", study, "--effect", "knowledge: common - individual-low", "--teams", "3",
-                              "--pool", "16", "--draws", "20", "--preregister", file});
+  const auto ran =
+      run_planned({"power", "quick", "--teams", "3", "--pool", "16", "--draws", "20", "--preregister", file});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto plan = text_of(file);
+  for (const auto& text : {ran.err, plan})
+    EXPECT_THAT(text, HasSubstr("no power is estimated for the planned 'any P'"));
+  EXPECT_THAT(plan, HasSubstr("| knowledge: common - individual-low | difference"));
   const auto hypotheses = plan.substr(plan.find("## Hypotheses"), plan.find("## Design") - plan.find("## Hypotheses"));
   EXPECT_THAT(hypotheses, HasSubstr("1. `knowledge`: the team's belief: the weighted sum of means 1 common - 1 "
                                     "individual-low is not 0."));
@@ -198,7 +186,7 @@ correct_gain = { half_normal = 0.052 }
   EXPECT_LT(plan.find("### 1. Primary hypothesis"), plan.find("## Exploratory analyses"));
   EXPECT_GT(plan.find("Does the strategy", plan.find("## Exploratory analyses")), plan.find("## Exploratory analyses"));
   const auto folder = scratch / "run";
-  ASSERT_EQ(run_small({"study", study, "-o", folder, "-q"}).code, 0);
+  ASSERT_EQ(run_planned({"study", "quick", "-o", folder, "-q"}).code, 0);
   const auto document = json_of({"analyze", folder});
   EXPECT_EQ(document.at("findings").at(0).at("id"), "primary");
   const auto report = json_of({"report", folder});
