@@ -320,7 +320,7 @@ void declare(OptionList& list, AnalyzeOptions& options) {
   auto brief = list.flag("--brief", options.brief, "The findings in words, in at most 25 lines");
   list.flag("--all", options.all, "Of a run every finding, with all notes and tables").excludes(brief);
   // Far below 10^-6 and as near to 1 there are no quantiles any more.
-  list.number("--alpha", options.alpha, "P", {1e-6, 1.0 - 1e-6}, "Significance level; intervals use 1 - alpha");
+  list.number("--alpha", options.alpha, "P", {1e-6, 0.499}, "Significance level; intervals use 1 - alpha");
   list.word("--correct", options.correction, "HOW", {words_for<Correction>().begin(), words_for<Correction>().end()},
             "Correction for families of tests: compositions, planned contrasts");
   list.json();
