@@ -69,11 +69,16 @@ void write_texts(const std::filesystem::path& folder, const std::vector<NamedTex
 }
 
 // Takes over what a codebook says of a table: what it lists under the table's name, or the only table that it lists.
-void describe(Dataset& data, const std::string& codebook, const std::string& file, const std::string& table) {
+// Whether there is one.
+bool describe(Dataset& data, const std::string& codebook, const std::string& file, const std::string& table) {
   const auto tables = read_codebook(codebook, file);
+  bool any = false;
   for (const auto& one : tables) {
-    if (one.file == table || tables.size() == 1) data.describe(one);
+    if (one.file != table && tables.size() > 1) continue;
+    data.describe(one);
+    any = true;
   }
+  return any;
 }
 
 // The table that the model is about: a file, standard input, or one of a run folder.
@@ -88,7 +93,7 @@ Dataset dataset_of(const AnalyzeOptions& options) {
     auto data = Dataset::read(options.input);
     const auto beside = fs::path{options.input}.parent_path() / "codebook.json";
     if (options.codebook.empty() && fs::is_regular_file(beside, failure))
-      describe(data, read_file(beside), beside.string(), fs::path{options.input}.filename().string());
+      (void)describe(data, read_file(beside), beside.string(), fs::path{options.input}.filename().string());
     return data;
   }
   const auto run = PublishedRun::open(options.input);
@@ -96,16 +101,19 @@ Dataset dataset_of(const AnalyzeOptions& options) {
   auto data = Dataset::parse(run.read(table), (run.folder() / table).string());
   const std::string codebook = "tables/codebook.json";
   if (options.codebook.empty() && run.has(codebook))
-    describe(data, run.read(codebook), (run.folder() / codebook).string(), options.table + ".csv");
+    (void)describe(data, run.read(codebook), (run.folder() / codebook).string(), options.table + ".csv");
   return data;
 }
 
 // The same with what a codebook that was named says of its columns.
 Dataset described_dataset_of(const AnalyzeOptions& options) {
   auto data = dataset_of(options);
-  if (!options.codebook.empty())
-    describe(data, read_file(options.codebook), options.codebook,
-             std::filesystem::path{options.input}.filename().string());
+  if (options.codebook.empty()) return data;
+  std::error_code failure;
+  const std::filesystem::path input{options.input};
+  const auto table = std::filesystem::is_directory(input, failure) ? options.table + ".csv" : input.filename().string();
+  if (!describe(data, read_file(options.codebook), options.codebook, table))
+    refuse("--codebook " + options.codebook + " describes several tables, but none named " + table);
   return data;
 }
 

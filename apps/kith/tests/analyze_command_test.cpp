@@ -119,6 +119,11 @@ TEST_F(AnalyzeCommand, ExplainsOptionsThatDoNotGoTogether) {
   EXPECT_EQ(run_kith({"analyze", folder(), "--where", "a=b"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--model", "y ~ g", "--where", "nonsense"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--alpha", "2"}).code, 2);
+  const auto codebook = folder() + "/tables/codebook.json";
+  EXPECT_THAT(err_of(2, {"analyze", file("t.csv", "g,y\na,1\n"), "--model", "y ~ g", "--codebook", codebook}),
+              HasSubstr("describes several tables, but none named t.csv"));
+  EXPECT_THAT(run_kith({"analyze", folder(), "--model", "y ~ g", "--codebook", codebook}).err,
+              Not(HasSubstr("several")));
 }
 
 }  // namespace
