@@ -273,17 +273,18 @@ void declare(OptionList& list, PowerCommandOptions& options) {
   auto effects = list.texts(
       "--effect", options.effects, "EFFECT",
       "Effect, such as 'periods: strategy eta2 = 0.02' (may be repeated; default: the planned contrasts, else all)");
-  list.number("--target", options.target, "P", kShare, "Desired power");
-  list.number("--alpha", options.alpha, "P", kShare, "Significance level");
+  auto target = list.number("--target", options.target, "P", kShare, "Desired power");
+  auto alpha = list.number("--alpha", options.alpha, "P", kShare, "Significance level");
   list.integer("--teams", options.teams, {2, 100'000},
                "Teams per cell, separated by commas (default: 5,10,15,20,30,50,100)");
-  list.integer("--pool", options.pool, {4, 1'000'000},
-               "Teams per cell to draw studies from, at least twice the largest of --teams (default: 1000)");
-  list.integer("--draws", options.draws, {10, 1'000'000}, "Studies drawn for each size");
+  auto pool =
+      list.integer("--pool", options.pool, {4, 1'000'000},
+                   "Teams per cell to draw studies from, at least twice the largest of --teams (default: 1000)");
+  auto draws = list.integer("--draws", options.draws, {10, 1'000'000}, "Studies drawn for each size");
   list.flag("--paired", options.paired, "Every strategy teaches the same people; compare strategies within people");
   auto findings = list.text("--findings", options.findings, "FILE",
                             "Repeat the study and count how often the findings in this targets file are reproduced");
-  findings.excludes(effects);
+  for (const auto& other : {effects, target, alpha, pool, draws}) findings.excludes(other);
   list.text("--preregister", options.preregister, "FILE",
             "Write a preregistration of the study to this file: hypotheses, design, sample size, stopping, analyses")
       .excludes(findings);

@@ -23,6 +23,7 @@ TEST(Messages, SayInPlainWordsWhatIsWrongWithAValue) {
       {{"study", "quick", "--shard", "4/3"}, "--shard must be I/N"},
       {{"analyze", "x", "--model", "y", "--count", "--ordinal"}, "--count cannot be combined with --ordinal"},
       {{"analyze", "x", "--alpha", "0.5"}, "--alpha must be a number from 0.000001 to 0.499"},
+      {{"power", "quick", "--findings", "f", "--pool", "9"}, "--pool cannot be combined with --findings"},
       {{"study", "quick", "-j", "9999"}, "--threads must be an integer from 1 to 1024, not '9999'"},
       {{"study", "quick", "--progress", "qqqqqq"}, "one of: auto, bar, json, none"},
   };
