@@ -209,6 +209,7 @@ void RunFolder::freeze_inputs() {
   Generation generation{path_};
   write_inputs(generation.path());
   generation.commit();
+  froze_ = true;
 }
 
 void RunFolder::write_inputs(const fs::path& folder) const {
@@ -224,7 +225,7 @@ void RunFolder::write_inputs(const fs::path& folder) const {
 void RunFolder::discard() {
   std::error_code ignored;
   Journal::remove(path_ / kJournalFile);
-  if (made_ && !published_) fs::remove_all(path_ / "inputs", ignored);
+  if (froze_ && !published_) fs::remove_all(path_ / "inputs", ignored);
 }
 
 void RunFolder::publish(const Study& study, std::span<const TeamRecord> teams, const RunFacts& facts) {

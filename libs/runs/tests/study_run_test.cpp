@@ -80,6 +80,9 @@ TEST_F(StudyRunTest, GoesOnOnlyIfToldSo) {
 TEST_F(StudyRunTest, LeavesNothingBehindWithoutAFinishedTeam) {
   { const StudyRun run{folder_, quick_study(), how()}; }
   EXPECT_FALSE(fs::exists(folder_));
+  fs::create_directories(folder_);
+  { const StudyRun run{folder_, quick_study(), how()}; }
+  EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(StudyRunTest, RefusesUnfinishedWorkOfAnotherProgramAndReplacesFinished) {

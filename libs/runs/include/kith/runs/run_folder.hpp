@@ -108,7 +108,8 @@ class RunFolder {
   std::filesystem::path path_;
   RunInputs inputs_;
   std::optional<FolderLock> lock_;
-  bool made_ = false;
+  bool made_ = false;   // the folder
+  bool froze_ = false;  // the inputs
   bool has_results_ = false;
   bool published_ = false;
 };
