@@ -90,6 +90,7 @@ Dataset dataset_of(const AnalyzeOptions& options) {
   }
   std::error_code failure;
   if (!fs::is_directory(options.input, failure)) {
+    if (options.table != AnalyzeOptions{}.table) refuse("--table names a table of a run folder; leave it out");
     auto data = Dataset::read(options.input);
     const auto beside = fs::path{options.input}.parent_path() / "codebook.json";
     if (options.codebook.empty() && fs::is_regular_file(beside, failure))
@@ -299,7 +300,8 @@ void declare(OptionList& list, AnalyzeOptions& options) {
             "Table of the run folder to which the model applies")
       .needs(model);
   list.texts("--where", options.where, "CONDITION", "Rows to keep, COLUMN=VALUE or COLUMN!=VALUE (may be repeated)");
-  list.text("--observed", options.observed, "COLUMN", "Column that is false where a count is censored").needs(model);
+  auto observed = list.text("--observed", options.observed, "COLUMN", "Column that is false where a count is censored");
+  observed.needs(model);
   list.texts("--identifier", options.identifiers, "COLUMN",
              "Column that names who or what a row is about; rows with the same value belong together (may be repeated)")
       .needs(model);
@@ -307,9 +309,8 @@ void declare(OptionList& list, AnalyzeOptions& options) {
       .needs(model);
   auto counts = list.flag("--count", options.counts, "The response is a count of events");
   counts.needs(model);
-  list.flag("--ordinal", options.ordinal, "The response is a rating, of which only the order counts")
-      .needs(model)
-      .excludes(counts);
+  auto ordinal = list.flag("--ordinal", options.ordinal, "The response is a rating, of which only the order counts");
+  ordinal.needs(model).excludes(counts).excludes(observed);
   list.text("--codebook", options.codebook, "FILE",
             "Description of the columns (default: codebook.json beside the table)")
       .needs(model);
@@ -321,7 +322,8 @@ void declare(OptionList& list, AnalyzeOptions& options) {
   list.text("--smallest-effect", options.smallest_effect, "X",
             "Smallest difference that matters, in units of the response or as d=0.3: tests whether differences are "
             "smaller")
-      .needs(model);
+      .needs(model)
+      .excludes(ordinal);
   list.text("--latex", options.latex, "FILE", "Write all findings and tables to this file as LaTeX");
   list.text("--csv", options.csv, "DIR", "Write every table to this folder as CSV");
   list.text("--r", options.r, "DIR", "Write data, plan and the R script of the analysis to this folder").needs(model);
