@@ -78,11 +78,7 @@ struct EventFile::State {
       const auto checksum = seal(row, key);
       event.bind(1, row.room).bind(2, static_cast<std::int64_t>(row.seq)).bind(3, row.at_us).bind_text(4, row.actor);
       event.bind_text(5, row.type).bind_text(6, row.json);
-      if (row.message) {
-        event.bind_text(7, *row.message);
-      } else {
-        event.bind_null(7);
-      }
+      row.message ? event.bind_text(7, *row.message) : event.bind_null(7);
       event.bind_blob(8, checksum).run();
     }
   }

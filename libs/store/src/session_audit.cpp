@@ -25,8 +25,7 @@ struct TaughtRoom {
 
 TaughtRoom taught_in(EventFile& file, const StoredRoom& stored, const std::shared_ptr<const LiveStudy>& study,
                      TeachingCache& cache) {
-  std::size_t left = 0;
-  file.for_each_event([&](const StoredEvent&) { ++left; }, stored.number);
+  auto left = file.count_events(stored.number);
   TaughtRoom result;
   TaughtPeople taught;
   const auto replayed = replay_room(file, stored, study, cache, [&](const Room& room, const RoomEvent&) {

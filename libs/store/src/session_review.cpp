@@ -200,13 +200,11 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
   std::vector<RoomSummary> rooms;
   for (const auto& stored : file.rooms()) {
     const auto setup = setup_of(stored);
-    RoomSummary room;
-    room.number = stored.number;
-    room.id = setup.id;
-    room.strategy = setup.strategy;
-    room.composition = setup.composition;
-    room.created_us = stored.created_us;
-    rooms.push_back(std::move(room));
+    rooms.push_back({.number = stored.number,
+                     .id = setup.id,
+                     .strategy = setup.strategy,
+                     .composition = setup.composition,
+                     .created_us = stored.created_us});
   }
 
   // Both lists are in the order of rooms.
@@ -285,11 +283,10 @@ namespace {
 struct OpenSession {
   std::optional<FolderLock> lock;
   EventFile file;
-  std::uint64_t service_seq = 0;  // of the last event outside of rooms
 
   void finish(const Json& body, StoreBatch log, std::span<const StoredEvent> changed, std::int64_t now_us) {
     log.events.push_back({.room = 0,
-                          .seq = service_seq + 1,
+                          .seq = file.count_events(0) + 1,
                           .at_us = now_us,
                           .actor = "admin",
                           .type = "redacted",
@@ -300,16 +297,13 @@ struct OpenSession {
 };
 
 OpenSession opened(const fs::path& folder, std::int64_t now_us) {
-  static_cast<void>(EventFile::read(folder));  // refuses folders without a session
+  const auto identity = EventFile::read(folder).identity();  // refuses folders without a session
   auto lock = FolderLock::try_acquire(folder);
   if (!lock) {
     refuse_run(ErrorKind::kBusy, "E1610", folder, "another process serves the sessions in this folder",
                "stop it before erasing anything");
   }
-  const auto identity = EventFile::read(folder).identity();
-  OpenSession session{std::move(lock), EventFile::open(folder, identity, now_us)};
-  session.file.for_each_event([&](const StoredEvent& event) { session.service_seq = event.seq; }, 0);
-  return session;
+  return {std::move(lock), EventFile::open(folder, identity, now_us)};
 }
 
 }  // namespace

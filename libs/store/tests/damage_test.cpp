@@ -171,14 +171,18 @@ TEST(DamagedSession, IsNoticedIfTheSaltOfTheLastFrameIsWrong) {
   }
 }
 
-TEST(DamagedSession, IsRecoveredWithoutTheFileBesideIt) {
+TEST(DamagedSession, IsRecoveredWithoutTheFileBesideItButNotWithoutItsIdentity) {
   const ScratchFolder scratch;
-  make_session(scratch.path() / "session");
-  fs::remove(scratch.path() / "session" / kIdentityFile);
-  const auto report = salvage_session(scratch.path() / "session", scratch.path() / "salvaged");
+  const auto session = scratch.path() / "session";
+  make_session(session);
+  fs::remove(session / kIdentityFile);
+  const auto report = salvage_session(session, scratch.path() / "salvaged");
   EXPECT_EQ(report.events, kDamagedRooms * kEventsOfARoom);
   EXPECT_EQ(report.rooms, static_cast<std::size_t>(kDamagedRooms));
   EXPECT_TRUE(report.lost.empty());
+  std::ofstream{session / kEventFile, std::ios::trunc} << std::string(8192, 'x');
+  fs::remove(session / "session.sqlite-wal");
+  EXPECT_EQ(testing::id_of_error([&] { (void)salvage_session(session, scratch.path() / "other"); }), "E1619");
 }
 
 TEST(DamagedSession, IsNotRecoveredIntoAFolderThatHoldsSomething) {
@@ -207,17 +211,6 @@ TEST(DamagedSession, IsRecoveredWholeIfOnlyAnIndexIsDamaged) {
   const auto report = salvage_session(folder, scratch.path() / "salvaged");
   EXPECT_EQ(report.events, kDamagedRooms * kEventsOfARoom);
   EXPECT_TRUE(report.lost.empty());
-}
-
-TEST(DamagedSession, CannotBeRecoveredWithoutItsIdentity) {
-  const ScratchFolder scratch;
-  make_session(scratch.path() / "session");
-  fs::remove(scratch.path() / "session" / kIdentityFile);
-  std::ofstream{scratch.path() / "session" / kEventFile, std::ios::trunc} << std::string(8192, 'x');
-  fs::remove(scratch.path() / "session" / "session.sqlite-wal");
-  EXPECT_EQ(
-      testing::id_of_error([&] { (void)salvage_session(scratch.path() / "session", scratch.path() / "salvaged"); }),
-      "E1619");
 }
 
 }  // namespace
