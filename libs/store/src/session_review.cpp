@@ -105,7 +105,8 @@ void erase_deed(const std::string& type, Json& body, const RoomEvent& event, con
   if (is(happening::Explored::kKind)) body = {{"start", Json{}}, {"map", Json::array()}};
 }
 
-// The person's events in one room, as they are to be. The times are those of what happened before.
+// The person's events in one room, as they are to be. The times are just after those of what happened before: whoever
+// was ready earlier stays ahead on the waiting list.
 std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& stored, std::size_t seat,
                                         const std::shared_ptr<const LiveStudy>& study) {
   TeachingCache cache{study->atlas};
@@ -124,7 +125,7 @@ std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& store
           if (is_own) erase_deed(event.type, body, typed, *study, room);
           auto now = event;
           now.json = body.dump();
-          if (is_own) now.at_us = before_us;
+          if (is_own) now.at_us = std::min(event.at_us, before_us + 1);
           if (now != event) changed.push_back(std::move(now));
         }
         if (!is_own) before_us = event.at_us;

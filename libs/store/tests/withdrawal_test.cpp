@@ -1,0 +1,131 @@
+// Whoever withdraws is in no table, and the session replays without them.
+
+#include <gtest/gtest.h>
+
+#include "../../live/tests/live_play.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/csv_reader.hpp"
+#include "kith/store/session_export.hpp"
+#include "kith/store/session_review.hpp"
+#include "kith/store/session_study.hpp"
+#include "store_support.hpp"
+
+namespace kith::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Row = std::map<std::string, std::string>;
+using Seats = std::set<std::pair<std::string, std::string>>;  // with their rooms
+
+// Rooms that were played by people with ids of a platform, such as "pid-ann".
+struct Played {
+  explicit Played(const std::string& group)
+      : study{make_session_study(parse_study(kLiveStudy + "[group]\ncollect_query = [\"PID\"]\n" + group, "live"))} {}
+
+  // Without a composition, a waiting list.
+  Play& room(const std::string& composition) {
+    auto setup = waiting_list_setup();
+    setup.id = "r" + std::to_string(rooms.size() + 1);
+    setup.is_waiting_list = composition.empty();
+    if (!composition.empty()) std::tie(setup.strategy, setup.composition) = std::pair{"common", composition};
+    return *rooms.emplace_back(std::make_unique<Play>(study.study, setup));
+  }
+  // In a new folder.
+  [[nodiscard]] fs::path store() {
+    const auto folder = scratch / std::to_string(++num_stored);
+    fs::create_directories(folder);
+    auto batch = batch_of(others);
+    for (const auto& room : rooms) {
+      const auto number = static_cast<std::int64_t>(batch.rooms.size() + 1);
+      batch.rooms.push_back({number, to_json(room->room().setup()).dump(), kSomeTime});
+      for (const auto& event : room->events()) {
+        batch.events.push_back(
+            {number, event.seq, event.at_us, event.actor, std::string{event.kind().word}, body_of(event).dump(), {}});
+      }
+    }
+    EventFile::open(folder, {study.digest, "kith test", study.inputs}, kSomeTime).write({&batch, 1});
+    return folder;
+  }
+
+  SessionStudy study;
+  std::vector<std::unique_ptr<Play>> rooms;
+  std::vector<StoredEvent> others;
+  ScratchFolder scratch;
+  std::size_t num_stored = 0;
+};
+
+// The tables with names. Every room is replayed for them.
+std::map<std::string, std::vector<Row>> exported(const Played& played, const fs::path& folder, bool with_names = true) {
+  auto file = EventFile::read(folder);
+  TeachingCache cache{played.study.study->atlas};
+  std::map<std::string, std::string> texts;
+  export_session(file, played.study.study, cache, {.with_names = with_names},
+                 [&](std::string_view name, std::string_view piece) { texts[std::string{name}] += piece; });
+  std::map<std::string, std::vector<Row>> tables;
+  for (const auto& [name, text] : texts) {
+    if (fs::path{name}.extension() != ".csv") continue;
+    const auto columns = read_csv_header(text, name);
+    static_cast<void>(read_csv(text, name, columns, [&rows = tables[name], &columns](const CsvRow& row) {
+      auto& values = rows.emplace_back();
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        const auto* cell = std::get_if<std::string>(&row.cells[c]);
+        values[columns[c].name] = cell == nullptr ? "" : *cell;
+      }
+    }));
+  }
+  return tables;
+}
+
+// Everybody withdraws, each from a session of their own.
+void expect_withdrawals(Played& played) {
+  auto all = exported(played, played.store());
+  std::map<std::string, Seats> people;
+  for (auto& row : all["participants.csv"]) {
+    if (!row["query"].empty()) people[Json::parse(row["query"])["PID"]].emplace(row["session"], row["seat"]);
+  }
+  for (const auto& [id, seats] : people) {
+    for (const auto& [room, seat] : seats) {
+      const auto folder = played.store();
+      withdraw(folder, room, std::stoul(seat), kSomeTime);
+      for (const auto& one : fs::directory_iterator{folder}) EXPECT_EQ(read_file(one).find(id), std::string::npos);
+      EXPECT_NO_THROW(exported(played, folder)) << room << " " << seat;
+    }
+  }
+}
+
+// They join and consent, one after the other.
+void come(Play& play, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
+    play.join(1);
+    const Json body{{"accept", true}, {"version", "1"}, {"query", {{"PID", "pid-" + name}}}};
+    EXPECT_EQ(play.seat(play.events().back().get<happening::Joined>()->seat, "consent", body), "");
+  }
+}
+
+TEST(Withdrawal, LeavesAWaitingListAndItsGroup) {
+  Played played{"size = 2\nscreening = { tests = 1, cut = 0.6, high = \"P\" }\n"};
+  auto& list = played.room("");
+  come(list, {"bob", "ann", "eve"});
+  for (const auto seat : {1u, 2u, 3u}) EXPECT_EQ(list.seat(seat, "checked"), "");
+  for (const auto seat : {2u, 1u}) {  // whoever came second is ready first
+    list.pass(50);
+    EXPECT_EQ(list.seat(seat, "screen", {{"test", 0}, {"actions", Json::array()}, {"ms", 5}}), "");
+  }
+  const auto group = list.room().next_group(list.now()).value();
+  ASSERT_EQ(group.seats, (std::vector<std::optional<std::size_t>>{2, 1}));
+  auto body = to_json(group);
+  body["room"] = "r2";
+  auto& taught = played.room(group.cell.composition);
+  taught.pass(100);
+  for (const auto m : {0u, 1u}) {
+    auto person = list.room().person_for(*group.seats[m]);
+    person["member"] = m;
+    EXPECT_EQ(taught.send("server", "seat", person), "");
+  }
+  EXPECT_EQ(list.send("server", "group", body), "");
+  taught.play_on({1, 2});
+  expect_withdrawals(played);
+}
+
+}  // namespace
+}  // namespace kith::testing
