@@ -108,9 +108,9 @@ bool is_erased_deed(const RoomParts& room, const LiveSeat& person, const RoomEve
            screened->test == person.screened.size();
   }
   if (const auto* examined = event.get<happening::Examined>()) {
-    const bool is_start = examined->start < room.study.atlas->num_states();
-    return examined->actions.empty() && is_start && room.state.phase == RoomPhase::kQuestions &&
-           examined->test == person.exam.size();
+    const bool is_left = examined->erased.is_null() || is_remainder(examined->erased, room.study.spec.num_features);
+    return examined->actions.empty() && is_left && examined->start < room.study.atlas->num_states() &&
+           room.state.phase == RoomPhase::kQuestions && examined->test == person.exam.size();
   }
   if (const auto* draft = event.get<happening::Drafted>()) {
     return draft->actions.empty() && room.state.phase == RoomPhase::kTesting && person.in_period;

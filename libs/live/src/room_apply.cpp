@@ -129,20 +129,20 @@ class RoomChange {
   void happen(const Drafted& e) { who().draft = e.actions; }
   void happen(const Answered& e) {
     auto& person = who();
-    const auto start_index = state_.session->lesson().tests.at(e.test).start;
-    auto judged =
-        e.erased.is_null() ? judged_path(*study_.atlas, start_index, e.actions, e.for_ever) : what_is_left(e.erased);
+    const auto judged = judged_or_left(state_.session->lesson().tests.at(e.test).start, e);
     person.paths.at(e.test) = GivenPath{e.actions, e.for_ever, judged.is_finished, judged.counts, e.ms};
     person.draft.clear();
     person.since_us = event_.at_us;
     if (current_test(person) == person.paths.size()) step_.give_answers(actor());
   }
-  static JudgedPath what_is_left(const Json& erased) {
+  template <typename Event>
+  [[nodiscard]] JudgedPath judged_or_left(StartIndex start, const Event& e) const {
+    if (e.erased.is_null()) return judged_path(*study_.atlas, start, e.actions, e.for_ever);
     JudgedPath judged;
-    judged.is_finished = erased.at("finished").get<bool>();
-    if (const auto& counts = erased.at("counts"); !counts.is_null()) {
+    judged.is_finished = e.erased.at("finished").template get<bool>();
+    if (const auto& counts = e.erased.at("counts"); !counts.is_null()) {
       auto& vector = judged.counts.emplace(counts.size());
-      for (std::size_t k = 0; k < counts.size(); ++k) vector[k] = counts[k].get<std::int64_t>();
+      for (std::size_t k = 0; k < counts.size(); ++k) vector[k] = counts[k].template get<std::int64_t>();
     }
     return judged;
   }
@@ -168,9 +168,8 @@ class RoomChange {
   }
   void happen(const Examined& e) {
     auto& person = who();
-    const StartIndex start{e.start};
-    const auto judged = judged_path(*study_.atlas, start, e.actions, e.for_ever);
-    person.exam.push_back(exam_board(*study_.atlas, start, judged.counts, num_periods(state_) + e.test + 1));
+    const auto counts = judged_or_left(StartIndex{e.start}, e).counts;
+    person.exam.push_back(exam_board(*study_.atlas, StartIndex{e.start}, counts, num_periods(state_) + e.test + 1));
     person.since_us = event_.at_us;
     step_.examine(actor());
   }

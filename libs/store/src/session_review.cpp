@@ -93,11 +93,13 @@ void erase_deed(const std::string& type, Json& body, const RoomEvent& event, con
   const auto is = [&](const RoomEventKind& kind) { return type == kind.word; };
   const auto* answer = event.get<happening::Answered>();
   const bool was_seen = answer != nullptr && study.group().discussion.choice.is_held();
-  if (answer != nullptr && !was_seen && answer->erased.is_null()) {
-    const auto start = room.session().lesson().tests.at(answer->test).start;
-    const auto judged = judged_path(*study.atlas, start, answer->actions, answer->for_ever);
+  const auto leave = [&](StartIndex start, const auto& path) {
+    if (!path.erased.is_null()) return;
+    const auto judged = judged_path(*study.atlas, start, path.actions, path.for_ever);
     body["erased"] = {{"finished", judged.is_finished}, {"counts", judged.counts ? to_json(*judged.counts) : Json{}}};
-  }
+  };
+  if (answer != nullptr && !was_seen) leave(room.session().lesson().tests.at(answer->test).start, *answer);
+  if (const auto* examined = event.get<happening::Examined>()) leave(StartIndex{examined->start}, *examined);
   if (body.contains("actions") && !was_seen) body["actions"] = Json::array();
   if (body.contains("keys")) body["keys"] = Json::array();
   if (body.contains("ms")) body["ms"] = 0;

@@ -127,5 +127,31 @@ TEST(Withdrawal, LeavesAWaitingListAndItsGroup) {
   expect_withdrawals(played);
 }
 
+// Boards of the exam that were answered rightly keep it going, so that somebody can leave it.
+TEST(Withdrawal, LeavesAnExam) {
+  Played played{"exam = true\n"};
+  for (const auto boards : {1u, 3u}) {
+    auto& room = played.room("NN");
+    come(room, {"a" + std::to_string(boards), "b" + std::to_string(boards)});
+    for (const auto seat : {1u, 2u}) EXPECT_EQ(room.seat(seat, "checked"), "");
+    room.play_on({1, 2});
+    for (std::size_t test = 0; test < boards; ++test) {
+      for (const auto seat : {1u, 2u}) {
+        Json body{{"test", test}, {"actions", Json::array()}, {"ms", 5}};
+        const auto asked = room.room().decide({seat_actor(seat), "examine", body, {}}, room.now());
+        ASSERT_FALSE(asked.events.empty()) << test;
+        body["actions"] = room.right_path(StartIndex{asked.events.front().get<happening::Examined>()->start});
+        EXPECT_EQ(room.seat(seat, "examine", body), "");
+      }
+    }
+    EXPECT_EQ(room.seat(1, "leave"), "");
+    EXPECT_EQ(room.send("server", "away", {{"seat", 2}}), "");
+    room.wait(200);
+    EXPECT_EQ(room.room().status_of(1), "left");
+    EXPECT_EQ(room.room().status_of(2), "dropped");
+  }
+  expect_withdrawals(played);
+}
+
 }  // namespace
 }  // namespace kith::testing

@@ -131,7 +131,7 @@ struct Screened {
               &Screened::ms, kTime, "for_ever?", &Screened::for_ever, Limits{});
 };
 
-/// An answer to board `test` of the exam, which begins in `start` (a StartIndex); it may never end.
+/// An answer to board `test` of the exam, from `start` (a StartIndex); it may never end. `erased` as in Answered.
 struct Examined {
   static constexpr RoomEventKind kKind{"examined", "examine", kSeat, kUnlogged, false};
   std::size_t test = 0, start = 0;
@@ -139,9 +139,11 @@ struct Examined {
   bool right = false;
   std::int64_t ms = 0;
   bool for_ever = false;
+  Json erased{};
   static constexpr auto kMembers =
       members("test", &Examined::test, kFew, "start", &Examined::start, "actions", &Examined::actions, kFew, "right",
-              &Examined::right, "ms", &Examined::ms, kTime, "for_ever?", &Examined::for_ever, Limits{});
+              &Examined::right, "ms", &Examined::ms, kTime, "for_ever?", &Examined::for_ever, Limits{}, "erased?",
+              &Examined::erased);
 };
 
 /// The lessons begin, by "server" or "facilitator"; whether stand-ins fill the places that are free.
