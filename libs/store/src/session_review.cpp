@@ -118,20 +118,25 @@ std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& store
   file.for_each_event(
       [&](const StoredEvent& event) {
         auto body = body_of(event);
-        const auto typed = room_event_of(event);
+        auto now = event;
         const bool is_own = event.actor == seat_actor(seat);
         const bool is_about = is_own || body.value("seat", Json{}) == Json(seat);
         if (is_about) {
           erase_person(event.type, body, std::nullopt);
           if (body.contains("reason") && event.actor == "facilitator") body["reason"] = kErased;
-          if (is_own) erase_deed(event.type, body, typed, *study, room);
-          auto now = event;
+          if (is_own) erase_deed(event.type, body, room_event_of(event), *study, room);
           now.json = body.dump();
           if (is_own) now.at_us = std::min(event.at_us, before_us + 1);
-          if (now != event) changed.push_back(std::move(now));
+          if (now != event) changed.push_back(now);
         }
         if (!is_own) before_us = event.at_us;
-        room.apply(typed, cache);
+        try {
+          room.apply(room_event_of(now), cache);
+        } catch (const Error& error) {
+          refuse_run(ErrorKind::kMismatch, "E1614", file.path(),
+                     "nothing was erased, since room " + room.setup().id + " would not replay: " + error.what(),
+                     "use the version of kith and the kind of machine that the session was run with");
+        }
       },
       stored.number);
   return changed;

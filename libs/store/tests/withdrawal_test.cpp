@@ -153,5 +153,15 @@ TEST(Withdrawal, LeavesAnExam) {
   expect_withdrawals(played);
 }
 
+TEST(Withdrawal, ErasesNothingOfARoomThatDoesNotReplay) {
+  Played played{""};
+  played.room("NN").join(2);
+  played.others.push_back({1, 3, kSomeTime, "seat:1", "left", R"({"by":9,"type":null})", {}});
+  const auto folder = played.store();
+  const auto before = read_file(folder / kEventFile);
+  EXPECT_EQ(id_of_error([&] { withdraw(folder, "r1", 2, kSomeTime); }), "E1614");
+  EXPECT_EQ(read_file(folder / kEventFile), before);
+}
+
 }  // namespace
 }  // namespace kith::testing

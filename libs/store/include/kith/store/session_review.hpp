@@ -79,7 +79,8 @@ using StoredSeat = std::pair<std::int64_t, std::size_t>;
 /// @param room  id or code.  @param seat  from 1.
 /// @param is_trial  nothing is changed.
 /// @return how many events of each type are changed.
-/// @throws kith::Error as redact(); kInvalidInput E1618 (no such room), E1624 (no such person)
+/// @throws kith::Error as redact(); kInvalidInput E1618 (no such room), E1624 (no such person); kMismatch E1614 (the
+/// room would not replay)
 std::map<std::string, std::size_t> withdraw(const std::filesystem::path& folder, const std::string& room,
                                             std::size_t seat, std::int64_t now_us, bool is_trial = false);
 
