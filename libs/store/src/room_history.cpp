@@ -226,6 +226,10 @@ RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::s
   for (const auto& [room, seat] : withdrawn_seats(file)) {
     if (room == stored.number) history.withdrawn.insert(seat);
   }
+  std::erase_if(history.events, [&](const StoredEvent& event) {
+    return history.withdrawn.count(seat_of_actor(event.actor).value_or(0)) != 0 ||
+           history.withdrawn.count(count_at(body_of(event), "seat")) != 0;
+  });
   const auto last = history.events.empty() ? 0 : history.events.back().at_us;
   for (auto& [seat, row] : history.seats) {
     if (row.away_since_us != 0) row.away_us += last - row.away_since_us;

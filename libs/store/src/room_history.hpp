@@ -58,7 +58,7 @@ struct RoomHistory {
   std::vector<LessonRow> lessons;
   std::vector<AnswerRow> answers;
   std::vector<TaughtPerson> people;  // who took part in which periods; nobody on a waiting list
-  std::vector<StoredEvent> events;
+  std::vector<StoredEvent> events;   // none of or about people whose data were erased
   std::int64_t started_us = 0;
   std::string ended;
   std::set<std::size_t> withdrawn;  // seats of people whose data were erased

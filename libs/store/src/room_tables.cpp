@@ -21,9 +21,7 @@ struct RoomTables : RoomExport {
       if (!lesson.is_replaced) write_period(lesson);
     }
     write_beliefs();
-    for (const auto& event : history.events) {
-      if (history.withdrawn.count(seat_of_actor(event.actor).value_or(0)) == 0) write_event(event);
-    }
+    for (const auto& event : history.events) write_event(event);
   }
 
   [[nodiscard]] std::optional<double> belief_in(std::size_t member) const {
@@ -161,6 +159,11 @@ struct RoomTables : RoomExport {
 
   void write_event(const StoredEvent& event) const {
     auto body = body_of(event);
+    if (event.type == happening::Grouped::kKind.word) {
+      for (auto& seat : body["seats"]) {
+        if (seat.is_number() && history.withdrawn.count(seat.get<std::size_t>()) != 0) seat = nullptr;
+      }
+    }
     if (!options.with_names && body.is_object()) {
       const auto* kind = room_event_kind(event.type);
       for (const auto& member : kind == nullptr ? std::array<PersonalMember, 2>{} : kind->personal) {

@@ -1,7 +1,5 @@
 #include "kith/store/session_export.hpp"
 
-#include <algorithm>
-
 #include "kith/core/error.hpp"
 #include "kith/explain/json.hpp"
 #include "kith/files/published_run.hpp"
@@ -60,12 +58,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
     const RoomExport room{*study, told, tables, write, history, audits};
     write_room(room);
     write_answers(room);
-    const auto is_left = [&](const StoredEvent& event) {
-      return history.withdrawn.count(seat_of_actor(event.actor).value_or(0)) == 0;
-    };
-    events += history.withdrawn.empty()
-                  ? file.count_events(stored.number)
-                  : static_cast<std::size_t>(std::count_if(history.events.begin(), history.events.end(), is_left));
+    events += history.withdrawn.empty() ? file.count_events(stored.number) : history.events.size();
   }
   if (!is_there) {
     refuse_run(ErrorKind::kInvalidInput, "E1618", file.path(), "there is no such room in this session",

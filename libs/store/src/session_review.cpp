@@ -87,8 +87,8 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   return has_any;
 }
 
-// What is left of an event of somebody who is withdrawn. A path that the group saw in a discussion stays: what the
-// others took over is one of these.
+// What is left of an event of or about somebody who is withdrawn. A path that the group saw in a discussion stays: what
+// the others took over is one of these.
 void erase_deed(const std::string& type, Json& body, const RoomEvent& event, const LiveStudy& study, const Room& room) {
   const auto is = [&](const RoomEventKind& kind) { return type == kind.word; };
   const auto* answer = event.get<happening::Answered>();
@@ -103,6 +103,8 @@ void erase_deed(const std::string& type, Json& body, const RoomEvent& event, con
   if (body.contains("actions") && !was_seen) body["actions"] = Json::array();
   if (body.contains("keys")) body["keys"] = Json::array();
   if (body.contains("ms")) body["ms"] = 0;
+  if (body.contains("ready_us")) body["ready_us"] = event.at_us;
+  if (body.contains("screened")) body["screened"] = std::vector<bool>(body["screened"].size());
   if (is(happening::QuestionsAnswered::kKind)) body["answers"] = Json::object();
   if (is(happening::Explored::kKind)) body = {{"start", Json{}}, {"map", Json::array()}};
 }
@@ -124,7 +126,7 @@ std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& store
         if (is_about) {
           erase_person(event.type, body, std::nullopt);
           if (body.contains("reason") && event.actor == "facilitator") body["reason"] = kErased;
-          if (is_own) erase_deed(event.type, body, room_event_of(event), *study, room);
+          erase_deed(event.type, body, room_event_of(event), *study, room);
           now.json = body.dump();
           if (is_own) now.at_us = std::min(event.at_us, before_us + 1);
           if (now != event) changed.push_back(now);

@@ -76,6 +76,16 @@ std::map<std::string, std::vector<Row>> exported(const Played& played, const fs:
   return tables;
 }
 
+// Whether a row is of or about one of these seats.
+bool mentions(Row row, const Seats& seats) {
+  const auto body = row["body"].empty() ? Json::object() : Json::parse(row["body"]);
+  auto named = body.value("seats", Json::array());
+  named.push_back(body.value("seat", Json{}));
+  const auto is_theirs = [&](const std::string& seat) { return seats.count({row["session"], seat}) != 0; };
+  return is_theirs(row["seat"]) || is_theirs(row["actor"].substr(row["actor"].find(':') + 1)) ||
+         std::any_of(named.begin(), named.end(), [&](const Json& seat) { return is_theirs(seat.dump()); });
+}
+
 // Everybody withdraws, each from a session of their own.
 void expect_withdrawals(Played& played) {
   auto all = exported(played, played.store());
@@ -88,7 +98,16 @@ void expect_withdrawals(Played& played) {
       const auto folder = played.store();
       withdraw(folder, room, std::stoul(seat), kSomeTime);
       for (const auto& one : fs::directory_iterator{folder}) EXPECT_EQ(read_file(one).find(id), std::string::npos);
-      EXPECT_NO_THROW(exported(played, folder)) << room << " " << seat;
+      const auto has_gone = [&id = id, &seats = seats](Row row) {
+        return mentions(row, seats) || row["query"].find(id) != std::string::npos;
+      };
+      for (auto& [name, rows] : exported(played, folder)) {
+        EXPECT_TRUE(std::none_of(rows.begin(), rows.end(), has_gone)) << id << ": " << name;
+        auto left = all[name];
+        if (left.empty() || left.front().count("seat") == 0) continue;
+        std::erase_if(left, has_gone);
+        EXPECT_EQ(rows, left) << id << ": " << name;
+      }
     }
   }
 }
