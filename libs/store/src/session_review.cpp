@@ -11,6 +11,7 @@
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/live/world_json.hpp"
+#include "kith/store/json_members.hpp"
 #include "kith/store/session_study.hpp"
 
 namespace kith {
@@ -109,10 +110,11 @@ void erase_deed(const std::string& type, Json& body, const RoomEvent& event, con
   if (is(happening::Explored::kKind)) body = {{"start", Json{}}, {"map", Json::array()}};
 }
 
-// The person's events in one room, as they are to be. The times are just after those of what happened before: whoever
-// was ready earlier stays ahead on the waiting list.
-std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& stored, std::size_t seat,
+// Events of the person of these seats in one room, as they are to be. The times are just after those of what happened
+// before: whoever was ready earlier stays ahead on the waiting list.
+std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& stored, const std::set<StoredSeat>& seats,
                                         const std::shared_ptr<const LiveStudy>& study) {
+  const auto is_theirs = [&](std::size_t seat) { return seats.count({stored.number, seat}) != 0; };
   TeachingCache cache{study->atlas};
   Room room{study, setup_of(stored), cache};
   std::vector<StoredEvent> changed;
@@ -121,9 +123,8 @@ std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& store
       [&](const StoredEvent& event) {
         auto body = body_of(event);
         auto now = event;
-        const bool is_own = event.actor == seat_actor(seat);
-        const bool is_about = is_own || body.value("seat", Json{}) == Json(seat);
-        if (is_about) {
+        const bool is_own = is_theirs(seat_of_actor(event.actor).value_or(0));
+        if (is_own || is_theirs(count_at(body, "seat"))) {
           erase_person(event.type, body, std::nullopt);
           if (body.contains("reason") && event.actor == "facilitator") body["reason"] = kErased;
           erase_deed(event.type, body, room_event_of(event), *study, room);
@@ -144,24 +145,32 @@ std::vector<StoredEvent> without_person(EventFile& file, const StoredRoom& store
   return changed;
 }
 
-// The seat, and the one on the waiting list that the person had before.
-std::vector<StoredSeat> seats_of_person(EventFile& file, std::int64_t room, std::size_t seat) {
-  std::vector<StoredSeat> seats;
-  file.for_each_event(
-      [&](const StoredEvent& event) {
-        const bool is_seated = event.type == happening::Seated::kKind.word;
-        if (!is_seated && event.type != happening::Joined::kKind.word) return;
-        const auto body = body_of(event);
-        if (body.value("seat", Json{}) != Json(seat)) return;
-        seats.assign(1, {room, seat});
-        if (!is_seated) return;
-        const auto& from = body.at("from");
-        for (const auto& stored : file.rooms()) {
-          if (Json(setup_of(stored).id) == from.at("room"))
-            seats.emplace_back(stored.number, from.at("seat").get<std::size_t>());
-        }
-      },
-      room);
+// All seats that the person of one has had: that on the waiting list, and those with the same id of the platform. Of
+// room 0, the numbers of the events that they were turned away.
+std::set<StoredSeat> seats_of_person(EventFile& file, const LiveStudy& study, const StoredSeat& seat) {
+  std::map<std::string, std::int64_t> rooms;  // by id
+  for (const auto& stored : file.rooms()) rooms.emplace(setup_of(stored).id, stored.number);
+  std::map<StoredSeat, std::string> ids;
+  std::vector<std::pair<StoredSeat, StoredSeat>> moves;
+  file.for_each_event([&](const StoredEvent& event) {
+    const auto body = body_of(event);  // of who joined, consented, was seated or turned away
+    if (event.type != happening::Joined::kKind.word && !body.contains("query")) return;
+    StoredSeat place{event.room, seat_of_actor(event.actor).value_or(count_at(body, "seat"))};
+    if (event.room == 0) place.second = event.seq;
+    ids[place] = platform_id(study, body.value("query", Json{}));
+    if (!body.contains("from")) return;
+    const auto found = rooms.find(text_at(body.at("from"), "room"));
+    if (found != rooms.end()) moves.push_back({{found->second, count_at(body.at("from"), "seat")}, place});
+  });
+
+  std::set<StoredSeat> seats;
+  if (ids.count(seat) == 0) return seats;
+  for (const auto& [place, id] : ids) {
+    if (place == seat || (!id.empty() && id == ids.at(seat))) seats.insert(place);
+  }
+  for (const auto& [from, to] : moves) {
+    if (to == seat || from == seat) seats.insert({from, to});
+  }
   return seats;
 }
 
@@ -184,6 +193,12 @@ void find_taught(EventFile& file, std::vector<RoomSummary>& rooms) {
 }
 
 }  // namespace
+
+std::string platform_id(const LiveStudy& study, const Json& query) {
+  const auto& names = study.group().collect_query;
+  const auto id = names.empty() ? std::string{} : text_at(query, names.front().c_str());
+  return id.find("{{") == std::string::npos ? id : std::string{};  // what the platform did not fill in
+}
 
 std::set<StoredSeat> withdrawn_seats(EventFile& file) {
   std::set<StoredSeat> seats;
@@ -340,50 +355,46 @@ std::map<std::string, std::size_t> withdraw(const fs::path& folder, const std::s
   auto session = opened(folder, now_us);
   auto& file = session.file;
   const auto stored = find_room(file, room);
-  const auto seats = seats_of_person(file, stored.number, seat);
+  const auto study = restore_session_study(file.identity().inputs).study;
+  const auto seats = seats_of_person(file, *study, {stored.number, seat});
   if (seats.empty()) {
     refuse_run(ErrorKind::kInvalidInput, "E1624", folder,
                "nobody has had seat " + std::to_string(seat) + " of room '" + room + "'",
                "'kith session export' writes participants.csv, with the seats");
   }
 
-  const auto study = restore_session_study(file.identity().inputs).study;
   std::vector<StoredEvent> changed;
-  std::map<std::string, std::size_t> counts;
-  Json places = Json::array();
   std::set<std::pair<std::string, std::size_t>> links;  // rooms, by id, and seats
   StoreBatch log;
   for (const auto& one : file.rooms()) {
+    const auto before = links.size();
     for (const auto& [number, whose] : seats) {
-      if (number != one.number) continue;
-      places.push_back({number, whose});
-      links.emplace(setup_of(one).id, whose);
-      for (auto& event : without_person(file, one, whose, study)) {
-        ++counts[event.type];
-        changed.push_back(std::move(event));
-      }
+      if (number == one.number) links.emplace(setup_of(one).id, whose);
     }
+    if (links.size() == before) continue;
+    for (auto& event : without_person(file, one, seats, study)) changed.push_back(std::move(event));
   }
-  // The log says who followed their link again.
+  // The log says who found no seat, and who followed their link again.
   file.for_each_event(
       [&](const StoredEvent& event) {
-        if (event.type != "returned") return;
         const auto body = body_of(event);
-        if (links.count({body.value("room", std::string{}), body.value("seat", std::size_t{0})}) == 0) return;
-        ++counts[event.type];
+        const bool has_returned =
+            event.type == "returned" && links.count({text_at(body, "room"), count_at(body, "seat")}) != 0;
+        if (!has_returned && seats.count({0, event.seq}) == 0) return;
         changed.push_back(event);
-        changed.back().json = Json{{"room", kErased}, {"seat", 0}}.dump();
+        changed.back().json = (has_returned ? Json{{"room", kErased}, {"seat", 0}} : Json::object()).dump();
       },
       0);
   for (const auto& token : file.tokens()) {
     const StoredSeat place{token.room, static_cast<std::size_t>(token.seat)};
-    const bool is_theirs = !token.revoked && std::find(seats.begin(), seats.end(), place) != seats.end();
-    if (is_theirs) log.revoked.push_back(token.hash);
+    if (!token.revoked && seats.count(place) != 0) log.revoked.push_back(token.hash);
   }
   if (!is_trial) {
-    session.finish({{"room", room}, {"seat", seat}, {"events", changed.size()}, {"withdrawn", places}}, std::move(log),
+    session.finish({{"room", room}, {"seat", seat}, {"events", changed.size()}, {"withdrawn", seats}}, std::move(log),
                    changed, now_us);
   }
+  std::map<std::string, std::size_t> counts;
+  for (const auto& event : changed) ++counts[event.type];
   return counts;
 }
 

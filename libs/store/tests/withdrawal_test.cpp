@@ -172,6 +172,27 @@ TEST(Withdrawal, LeavesAnExam) {
   expect_withdrawals(played);
 }
 
+TEST(Withdrawal, LeavesFormerSeatsAndThoseWhoWereTurnedAway) {
+  Played played{"ask_name = true\n"};
+  for (const std::uint64_t seq : {1u, 2u}) {
+    const Json body{{"code", "CODE"}, {"query", {{"PID", seq == 1 ? "pid-eve" : "pid-ann"}}}};
+    played.others.push_back({0, seq, kSomeTime, "server", "turned-away", body.dump(), {}});
+  }
+  auto& room = played.room("NNN");
+  come(room, {"ann", "bob", "cid"});
+  EXPECT_EQ(room.seat(2, "checked"), "");
+  EXPECT_EQ(room.seat(3, "leave"), "");  // before being ready: there is no code
+  EXPECT_EQ(room.send("server", "away", {{"seat", 1}}), "");
+  room.wait(100);
+  ASSERT_EQ(room.room().stage_of(1), "replaced");
+  come(room, {"ann", "dan"});
+  EXPECT_EQ(room.seat(4, "checked"), "");
+  EXPECT_EQ(room.send("facilitator", "start", {{"reason", "Anna Schmidt waits"}}), "");
+  EXPECT_EQ(room.room().stage_of(5), "full");
+  EXPECT_EQ(room.send("facilitator", "end", {{"reason", "Anna Schmidt went home"}}), "");
+  expect_withdrawals(played);
+}
+
 TEST(Withdrawal, ErasesNothingOfARoomThatDoesNotReplay) {
   Played played{""};
   played.room("NN").join(2);

@@ -69,13 +69,16 @@ struct ReplayedRoom {
 /// @throws kith::Error kBusy E1610 if the session is being served; kIo.
 std::size_t redact(const std::filesystem::path& folder, std::optional<std::string> room, std::int64_t now_us);
 
+/// Who somebody is, as the recruitment platform says: the first of `collect_query`; empty if it does not.
+[[nodiscard]] std::string platform_id(const LiveStudy& study, const Json& query);
+
 /// A seat of a room, by number.
 using StoredSeat = std::pair<std::int64_t, std::size_t>;
 
 /// Withdraws one person: what they entered, said and did goes for good, with all times, and their links become void. Of
 /// answers only what the lessons of the others rest on is left, the counts of the path, so the room replays as before.
-/// Exports and audits leave the person out from then on, and say that somebody was withdrawn. Somebody who came from
-/// the waiting list is erased there, too.
+/// Exports and audits leave the person out from then on, and say that somebody was withdrawn. They are also erased on
+/// the waiting list, in other seats that they had, see platform_id(), and where they were turned away.
 /// @param room  id or code.  @param seat  from 1.
 /// @param is_trial  nothing is changed.
 /// @return how many events of each type are changed.
