@@ -10,6 +10,10 @@
 namespace kith {
 namespace {
 
+bool shows_code_to(const RoomParts& room, const LiveSeat& seat) {
+  return seat.gets_code || stage_of_seat(room, seat) == "debrief";
+}
+
 class RoomRowPage {
  public:
   RoomRowPage(const RoomParts& room, RoomStage stage, const Viewer& viewer)
@@ -73,8 +77,7 @@ class RoomRowPage {
       row.at<"estimate">() = screening_estimate(right, seat.screened.size());
       row.at<"estimate_is_high">() = has_high_estimate(room_, seat);
     }
-    const bool has_code = seat.gets_code || (seat.is_person && row.at<"stage">() == "debrief");
-    if (is_facilitator_ && has_code) {
+    if (is_facilitator_ && shows_code_to(room_, seat)) {
       row.at<"code">() = completion_code(room_.study, room_.setup.salt, room_.setup.id, i + 1);
     }
     return row;
@@ -139,6 +142,10 @@ class RoomRowPage {
 
 Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer) {
   return written(RoomRowPage{room, stage, viewer}.row());
+}
+
+bool Room::shows_code(std::size_t seat) const {
+  return shows_code_to({*study_, *setup_, *state_}, state_->seats.at(seat - 1));
 }
 
 Json Room::row(const Viewer& viewer) const { return row_json({*study_, *setup_, *state_}, stage(), viewer); }

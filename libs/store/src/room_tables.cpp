@@ -110,7 +110,7 @@ struct RoomTables : RoomExport {
                        .name = if_any(printable(person.name))};
     if (is_screened) row.estimate = screening_estimate(passed, screened.size());
     if (!person.query.empty()) row.query = printable(person.query.dump());
-    const bool has_code = stage == "debrief" || stage == "ended" || stage == "replaced";
+    const bool has_code = seat <= history.room->num_seats() && history.room->shows_code(seat);
     if (has_code && options.with_names) row.code = completion_code(study, setup().salt, setup().id, seat);
     write.add(tables.participants, row);
   }

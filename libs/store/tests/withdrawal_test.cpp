@@ -86,12 +86,15 @@ bool mentions(Row row, const Seats& seats) {
          std::any_of(named.begin(), named.end(), [&](const Json& seat) { return is_theirs(seat.dump()); });
 }
 
-// Everybody withdraws, each from a session of their own.
-void expect_withdrawals(Played& played) {
+// Payments have the codes that people were told. Everybody withdraws, each from a session of their own.
+void expect_codes_and_withdrawals(Played& played) {
   auto all = exported(played, played.store());
   std::map<std::string, Seats> people;
   for (auto& row : all["participants.csv"]) {
     if (!row["query"].empty()) people[Json::parse(row["query"])["PID"]].emplace(row["session"], row["seat"]);
+    const auto shown = page(*played.rooms.at(std::stoul(row["session"].substr(1)) - 1), std::stoul(row["seat"]));
+    const auto last = shown.contains("debrief") ? shown["debrief"] : shown.value("end", Json::object());
+    EXPECT_EQ(row["code"], last.value("code", "")) << row["session"] << " " << row["seat"];
   }
   for (const auto& [id, seats] : people) {
     for (const auto& [room, seat] : seats) {
@@ -143,7 +146,7 @@ TEST(Withdrawal, LeavesAWaitingListAndItsGroup) {
   }
   EXPECT_EQ(list.send("server", "group", body), "");
   taught.play_on({1, 2});
-  expect_withdrawals(played);
+  expect_codes_and_withdrawals(played);
 }
 
 // Boards of the exam that were answered rightly keep it going, so that somebody can leave it.
@@ -169,7 +172,7 @@ TEST(Withdrawal, LeavesAnExam) {
     EXPECT_EQ(room.room().status_of(1), "left");
     EXPECT_EQ(room.room().status_of(2), "dropped");
   }
-  expect_withdrawals(played);
+  expect_codes_and_withdrawals(played);
 }
 
 TEST(Withdrawal, LeavesFormerSeatsAndThoseWhoWereTurnedAway) {
@@ -190,7 +193,7 @@ TEST(Withdrawal, LeavesFormerSeatsAndThoseWhoWereTurnedAway) {
   EXPECT_EQ(room.send("facilitator", "start", {{"reason", "Anna Schmidt waits"}}), "");
   EXPECT_EQ(room.room().stage_of(5), "full");
   EXPECT_EQ(room.send("facilitator", "end", {{"reason", "Anna Schmidt went home"}}), "");
-  expect_withdrawals(played);
+  expect_codes_and_withdrawals(played);
 }
 
 TEST(Withdrawal, ErasesNothingOfARoomThatDoesNotReplay) {

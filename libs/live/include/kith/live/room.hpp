@@ -112,6 +112,8 @@ class Room {
   /// (was away for too long), "replaced", "withdrawn", "ended" (with the room, before its time), "declined", "full" or
   /// "moved" (from the waiting list to a group); "simulated" for stand-ins.
   [[nodiscard]] std::string status_of(std::size_t seat) const;
+  /// Whether the person's page has a completion code.
+  [[nodiscard]] bool shows_code(std::size_t seat) const;
 
   /// Which events a command leads to. Changes nothing. A command that was accepted before in the same state (the same
   /// answer again) gives neither events nor a refusal. Never throws for what people send.
