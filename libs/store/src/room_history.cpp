@@ -22,6 +22,7 @@ class Collector {
     history_.room = room;
     taught_.see(room);
     seat_ = seat_of_actor(event.actor).value_or(0);
+    is_by_facilitator_ = event.actor == "facilitator";
     at_us_ = event.at_us;
     std::visit([&](const auto& what) { note(what); }, event.what);
   }
@@ -46,7 +47,7 @@ class Collector {
     history_.started_us = at_us_;
     note_stand_ins();
   }
-  void note(const Ended& e) { history_.ended = e.reason; }
+  void note(const Ended& e) { history_.ended = is_by_facilitator_ ? "facilitator" : e.reason; }
   void note(const Away& e) { note_presence(history_.seats[e.seat], true); }
   void note(const Present& e) { note_presence(history_.seats[e.seat], false); }
   void note(const Dropped& e) { replace(e.seat, e.by.value_or(0)); }
@@ -154,6 +155,7 @@ class Collector {
   RoomHistory& history_;
   TaughtPeople taught_;
   std::size_t seat_ = 0;  // of the actor of the event
+  bool is_by_facilitator_ = false;
   std::int64_t at_us_ = 0;
 };
 

@@ -174,7 +174,7 @@ struct RoomTables : RoomExport {
     }
     if (!options.with_text && body.is_object()) {
       for (const auto* name : {"text", "reason"}) {
-        if (event.type != happening::Ended::kKind.word) body.erase(name);
+        if (event.type != happening::Ended::kKind.word || event.actor == "facilitator") body.erase(name);
       }
       if (event.type == happening::QuestionsAnswered::kKind.word && body.contains("answers")) {
         for (const auto& question : study.group().questions) {

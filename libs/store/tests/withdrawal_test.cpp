@@ -194,6 +194,11 @@ TEST(Withdrawal, LeavesFormerSeatsAndThoseWhoWereTurnedAway) {
   EXPECT_EQ(room.room().stage_of(5), "full");
   EXPECT_EQ(room.send("facilitator", "end", {{"reason", "Anna Schmidt went home"}}), "");
   expect_codes_and_withdrawals(played);
+
+  const auto folder = played.store();
+  auto tables = exported(played, folder, false);
+  for (auto& row : tables["events.csv"]) EXPECT_EQ(row["body"].find("Schmidt"), std::string::npos);
+  EXPECT_EQ(tables["sessions.csv"].at(0)["ended"], "facilitator");
 }
 
 TEST(Withdrawal, ErasesNothingOfARoomThatDoesNotReplay) {
