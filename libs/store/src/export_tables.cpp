@@ -49,8 +49,8 @@ void declare(TableOf<SessionRow>& table) {
 
 void declare(TableOf<ParticipantRow>& table, const SessionExportOptions& options) {
   using R = ParticipantRow;
-  table.column(&R::session, kSessionWords)
-      .column(&R::seat, kSeatWords)
+  table.column(&R::session, identifier(kSession, "Id of the room; missing for people who found no seat."))
+      .column(&R::seat, identifier(kSeat, "Number of the person or stand-in in the room, from 1; 0: no seat."))
       .column(&R::member, identifier(kMember, "Place in the group, from 1; missing for people on a waiting list."))
       .column(&R::type, {kType, "Letter of the learner type of that place."})
       .column(&R::strategy, {kStrategy, "Strategy of the room; missing for people who stayed on the waiting list."})

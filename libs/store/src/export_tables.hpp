@@ -31,17 +31,17 @@ struct SessionRow {
 };
 
 struct ParticipantRow {
-  std::string session;
-  std::size_t seat;
+  std::string session{};
+  std::size_t seat = 0;
   std::optional<std::size_t> member{};
   std::optional<std::string> type{}, strategy{}, composition{};
-  bool simulated;
+  bool simulated = false;
   std::optional<std::int64_t> joined_ms{};
   std::optional<std::string> consent{}, stage{};
-  std::string status;
-  std::size_t times_away;
-  double seconds_away;
-  std::size_t tests, right;
+  std::string status{};
+  std::size_t times_away = 0;
+  double seconds_away = 0.0;
+  std::size_t tests = 0, right = 0;
   std::optional<double> share_right{}, knowledge{}, p_bec{}, estimate{};
   std::optional<std::string> name{}, query{}, code{};
 };

@@ -3,6 +3,7 @@
 #include "kith/core/error.hpp"
 #include "kith/explain/json.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/store/json_members.hpp"
 #include "room_export.hpp"
 
 namespace kith {
@@ -35,6 +36,19 @@ void reconcile(const std::filesystem::path& path, const char* file, std::size_t 
              "repeat the export; if it fails again, check the disk");
 }
 
+// People who found no seat have a code, and no room.
+void write_turned_away(EventFile& file, const ExportTables& tables, TableWriters& write) {
+  const auto take = [&](const StoredEvent& event) {
+    const auto body = body_of(event);
+    if (event.type != "turned-away" || body.empty()) return;  // empty: somebody withdrew
+    write.add(tables.participants, {.stage = "full",
+                                    .status = "full",
+                                    .query = printable(body.at("query").dump()),
+                                    .code = if_any(text_at(body, "code"))});
+  };
+  file.for_each_event(take, 0);
+}
+
 }  // namespace
 
 ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStudy>& study, TeachingCache& cache,
@@ -64,6 +78,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
     refuse_run(ErrorKind::kInvalidInput, "E1618", file.path(), "there is no such room in this session",
                "list the rooms with 'kith session list'");
   }
+  if (told.with_names && !told.room) write_turned_away(file, tables, write);
   const auto report = write.finish(export_tables(told), file.identity().study, about(file, *study));
   reconcile(file.path(), kSessionsFile, report.rows.at(kSessionsFile), rooms);
   reconcile(file.path(), kEventsFile, report.rows.at(kEventsFile), events);

@@ -91,6 +91,7 @@ void expect_codes_and_withdrawals(Played& played) {
   auto all = exported(played, played.store());
   std::map<std::string, Seats> people;
   for (auto& row : all["participants.csv"]) {
+    if (row["session"].empty()) continue;
     if (!row["query"].empty()) people[Json::parse(row["query"])["PID"]].emplace(row["session"], row["seat"]);
     const auto shown = page(*played.rooms.at(std::stoul(row["session"].substr(1)) - 1), std::stoul(row["seat"]));
     const auto last = shown.contains("debrief") ? shown["debrief"] : shown.value("end", Json::object());
@@ -199,6 +200,12 @@ TEST(Withdrawal, LeavesFormerSeatsAndThoseWhoWereTurnedAway) {
   auto tables = exported(played, folder, false);
   for (auto& row : tables["events.csv"]) EXPECT_EQ(row["body"].find("Schmidt"), std::string::npos);
   EXPECT_EQ(tables["sessions.csv"].at(0)["ended"], "facilitator");
+  EXPECT_EQ(tables["participants.csv"].size(), 5u);
+  for (const auto left : {2, 1}) {  // of those who found no seat
+    const auto rows = exported(played, folder)["participants.csv"];
+    EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.at("code") == "CODE"; }), left);
+    withdraw(folder, "r1", 1, kSomeTime);
+  }
 }
 
 TEST(Withdrawal, ErasesNothingOfARoomThatDoesNotReplay) {
