@@ -8,20 +8,16 @@ namespace kith {
 namespace {
 
 using testing::live_study;
+using testing::page;
 using testing::Play;
 
 std::string talks(const std::string& model, const std::string& more = {}) {
   return "[group]\n" + more + "[group.discussion]\nmodel = \"" + model + "\"\n";
 }
 
-Json view_of(const Play& play, std::size_t seat) {
-  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
-}
-
 // Three people in the stage: the first and the third are right, the second is wrong.
 void begin(Play& play) {
-  play.start(3);
-  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  play.start_tests(3);
   for (std::size_t i = 1; i <= 3; ++i) play.answer(i, i != 2);
 }
 
@@ -29,8 +25,7 @@ TEST(Discussion, ShowsWhatTheGroupPredictedWithoutNames) {
   Play play{live_study(talks("majority"))};
   begin(play);
   ASSERT_EQ(play.room().stage_of(1), "discuss");
-  const auto first = view_of(play, 1)["discuss"], second = view_of(play, 2)["discuss"],
-             third = view_of(play, 3)["discuss"];
+  const auto first = page(play, 1)["discuss"], second = page(play, 2)["discuss"], third = page(play, 3)["discuss"];
   ASSERT_EQ(first["predictions"].size(), 2u);
   EXPECT_EQ(first, third);  // they gave the same answer, so their pages are the same
   const auto without_own = [](Json shown) {
@@ -57,7 +52,7 @@ TEST(Discussion, ComesBetweenTheAnswersAndTheFeedback) {
   const auto tests = play.room().session().lesson().tests.size();
   for (std::size_t t = 0; t < tests && play.room().stage_of(2) == "discuss"; ++t) EXPECT_EQ(play.discuss(2, false), "");
   EXPECT_EQ(play.room().stage_of(2), "wait");
-  EXPECT_EQ(view_of(play, 2)["wait"]["for"], "discussion");
+  EXPECT_EQ(page(play, 2)["wait"]["for"], "discussion");
   for (const std::size_t seat : {1u, 3u}) {
     while (play.room().stage_of(seat) == "discuss") EXPECT_EQ(play.discuss(seat), "");
   }
@@ -65,7 +60,7 @@ TEST(Discussion, ComesBetweenTheAnswersAndTheFeedback) {
   const auto& past = play.room().session().history().back();
   EXPECT_FALSE(past.feedback.all_correct[1]);  // by the first answers
   EXPECT_TRUE(past.feedback.all_right_in_the_end(1));
-  EXPECT_TRUE(view_of(play, 2)["feedback"]["all_right"].get<bool>());
+  EXPECT_TRUE(page(play, 2)["feedback"]["all_right"].get<bool>());
   const auto detail = play.room().view({Viewer::Role::kFacilitator, 0}, play.now())["room"];
   std::size_t changed = 0;
   for (const auto& answer : detail["answers"]) {
@@ -78,8 +73,7 @@ TEST(Discussion, ComesBetweenTheAnswersAndTheFeedback) {
 
 TEST(Discussion, IsReplayedInTheMiddleOfTheStage) {
   Play play{live_study(talks("degroot")), "NNP", {false, false, true}};
-  play.start(2);
-  for (std::size_t i = 1; i <= 2; ++i) play.watch(i);
+  play.start_tests(2);
   play.answer(1, true);
   play.answer(2, false);
   ASSERT_EQ(play.room().stage_of(1), "discuss");
@@ -94,7 +88,7 @@ TEST(Discussion, IsReplayedInTheMiddleOfTheStage) {
 TEST(Discussion, ASecondTabCannotDecideOtherwise) {
   Play play{live_study(talks("majority"))};
   begin(play);
-  const Json kept{{"test", view_of(play, 1)["discuss"]["index"]}, {"choice", nullptr}, {"ms", 5}};
+  const Json kept{{"test", page(play, 1)["discuss"]["index"]}, {"choice", nullptr}, {"ms", 5}};
   auto taken = kept;
   taken["choice"] = 0;
   EXPECT_EQ(play.seat(1, "discuss", kept), "");
@@ -121,7 +115,7 @@ TEST(Discussion, WhoLeavesKeepsTheirAnswersAndTheOthersGoOn) {
 TEST(Discussion, IsOverWhenItsTimeIs) {
   Play play{live_study(talks("majority", "time = { discuss_s = 20 }\n"))};
   begin(play);
-  EXPECT_TRUE(view_of(play, 1).contains("limit_ms"));
+  EXPECT_TRUE(page(play, 1).contains("limit_ms"));
   play.wait(21.0);
   EXPECT_EQ(play.room().stage_of(1), "feedback");
   play.expect_replay();
@@ -131,12 +125,9 @@ TEST(Discussion, IsOverWhenItsTimeIs) {
 TEST(Discussion, NothingShowsBeforeTheStage) {
   const auto study = live_study(talks("truth-wins"));
   Play a{study}, b{study};
-  for (auto* play : {&a, &b}) {
-    play->start(3);
-    for (std::size_t i = 1; i <= 3; ++i) play->watch(i);
-  }
+  for (auto* play : {&a, &b}) play->start_tests(3);
   const auto same = [&] {
-    for (const std::size_t viewer : {1u, 3u}) EXPECT_EQ(view_of(a, viewer).dump(), view_of(b, viewer).dump());
+    for (const std::size_t viewer : {1u, 3u}) EXPECT_EQ(page(a, viewer).dump(), page(b, viewer).dump());
   };
   a.answer(2, true);  // the only difference
   b.answer(2, false);
@@ -146,7 +137,7 @@ TEST(Discussion, NothingShowsBeforeTheStage) {
   same();
   a.answer(3);
   b.answer(3);
-  EXPECT_NE(view_of(a, 1).dump(), view_of(b, 1).dump());
+  EXPECT_NE(page(a, 1).dump(), page(b, 1).dump());
 }
 
 }  // namespace

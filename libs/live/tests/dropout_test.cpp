@@ -59,7 +59,7 @@ class Dropouts : public ::testing::TestWithParam<const char*> {
         ASSERT_EQ(play.seat(i, "consent", {{"accept", true}, {"version", "1"}}), "");
         if (stage == "check") continue;
         ASSERT_EQ(play.seat(i, "checked"), "");
-        if (stage == "lobby" && i <= leavers) finish_screening(play, i);
+        if (stage == "lobby" && i <= leavers) play.get_ready(i);
       }
       return;
     }
@@ -90,11 +90,6 @@ class Dropouts : public ::testing::TestWithParam<const char*> {
     if (stage == "questions") return;
     for (std::size_t i = 1; i <= leavers; ++i) {
       ASSERT_EQ(play.seat(i, "questions", {{"answers", Json::object()}}), "");
-    }
-  }
-  static void finish_screening(Play& play, std::size_t i) {
-    for (std::size_t t = 0; play.room().stage_of(i) == "screening"; ++t) {
-      ASSERT_EQ(play.seat(i, "screen", {{"test", t}, {"actions", Json::array()}, {"ms", 1}}), "");
     }
   }
 
@@ -190,8 +185,7 @@ INSTANTIATE_TEST_SUITE_P(R18, DropoutsSlow, ::testing::ValuesIn(kPolicies), name
 
 TEST(Dropout, AreLeftOutOfTheTeachersBeliefs) {
   Play play{live_study("[group]\ndropout = { policy = \"continue-now\" }\n")};
-  play.start(3);
-  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  play.start_tests(3);
   ASSERT_EQ(play.send("server", "away", {{"seat", 2}}), "");
   const auto frozen = play.room().session().belief().member(1);
   play.play_on({1, 3}, false, 6);

@@ -35,10 +35,6 @@ double return_of(const Atlas& atlas, const IntegerVector& counts) {
   return atlas.domain().weights().return_of(counts) / static_cast<double>(atlas.domain().count_scale());
 }
 
-Json page_in_play(const Play& play, std::size_t seat) {
-  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
-}
-
 TEST(EndlessAnswers, ArePossibleExactlyWhereLaterStepsCountLess) {
   EXPECT_EQ(world_json(*discounted_study(), MdpIndex{0})["may_repeat"], true);
   EXPECT_EQ(world_json(*testing::live_study(), MdpIndex{0})["may_repeat"], false);
@@ -153,7 +149,7 @@ TEST(EndlessAnswers, AreGivenAndShownInASession) {
   std::size_t asked = 0, shown = 0;
   for (int i = 0; i < 400 && play.room().stage() == RoomStage::kRunning; ++i) {
     for (const std::size_t seat : {1U, 2U}) {
-      const auto page = page_in_play(play, seat);
+      const auto page = testing::page(play, seat);
       if (page["stage"] == "watch" && page["watch"].contains("repeats_from")) {
         ++shown;
         const auto& frames = page["watch"]["frames"];

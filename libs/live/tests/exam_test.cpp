@@ -6,7 +6,6 @@
 
 #include "kith/explain/examination.hpp"
 #include "kith/live/room_audit.hpp"
-#include "kith/live/taught_people.hpp"
 #include "live_play.hpp"
 
 namespace kith {
@@ -14,10 +13,6 @@ namespace {
 
 using testing::live_study;
 using testing::Play;
-
-Json board_of(Play& play, std::size_t seat) {
-  return play.room().view({Viewer::Role::kParticipant, seat}, play.now())["predict"];
-}
 
 // Taught until the lessons are over.
 void teach_everybody(Play& play, std::size_t people) {
@@ -34,7 +29,7 @@ TEST(LiveExam, IsTakenAloneAfterTheLessonsAndEndsWithTheQuestions) {
   for (std::size_t seat = 1; seat <= 3; ++seat) {
     std::set<std::string> boards;
     for (std::size_t n = 0; play.room().stage_of(seat) == "exam"; ++n) {
-      const auto task = board_of(play, seat);
+      const auto task = testing::page(play, seat)["predict"];
       EXPECT_EQ(task["index"], n);
       EXPECT_EQ(task["of"], Examination::kMostBoards);
       EXPECT_TRUE(boards.insert(task["board"].dump()).second);
@@ -55,13 +50,7 @@ TEST(LiveExam, CountsForTheAudit) {
   teach_everybody(play, 3);
   ASSERT_EQ(play.room().stage_of(1), "exam");
   ASSERT_EQ(play.seat(1, "examine", {{"test", 0}, {"actions", Json::array()}, {"ms", 5}}), "");
-  TaughtPeople taught;
-  Room room{play.study_of_room(), play.room().setup(), play.cache()};
-  for (const auto& event : play.events()) {
-    room.apply(event, play.cache());
-    taught.see(room);
-  }
-  const auto people = taught.all(room);
+  const auto people = testing::people_of(play);
   ASSERT_FALSE(people.empty());
   EXPECT_TRUE(people.front().periods.back().is_exam());
   EXPECT_FALSE(people.back().periods.back().is_exam());

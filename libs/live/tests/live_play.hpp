@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kith/live/room.hpp"
+#include "kith/live/taught_people.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/study/study_file.hpp"
 #include "study_texts.hpp"
@@ -148,13 +149,13 @@ class Play {
       ASSERT_EQ(send("server", "join"), "");
     }
   }
-  void get_ready(std::size_t number) {
+  void get_ready(std::size_t number, bool right = true) {
     ASSERT_EQ(seat(number, "consent", {{"accept", true}, {"version", study_->group().consent_version}}), "");
     ASSERT_EQ(seat(number, "checked"), "");
     for (std::size_t t = 0; room_.stage_of(number) == "screening"; ++t) {
       const auto start_index = study_->screening[t];
-      Json body{{"test", t}, {"actions", right_path(start_index)}, {"ms", 5}};
-      if (expected_path(*study_->atlas, start_index).repeats_from) body["for_ever"] = true;
+      Json body{{"test", t}, {"actions", right ? right_path(start_index) : Json::array()}, {"ms", 5}};
+      if (right && expected_path(*study_->atlas, start_index).repeats_from) body["for_ever"] = true;
       ASSERT_EQ(seat(number, "screen", std::move(body)), "");
     }
   }
@@ -162,6 +163,12 @@ class Play {
   void start(std::size_t people) {
     join(people);
     for (std::size_t i = 1; i <= people; ++i) get_ready(i);
+  }
+
+  /// Everybody comes, and has watched what the first lesson shows.
+  void start_tests(std::size_t people) {
+    start(people);
+    for (std::size_t i = 1; i <= people; ++i) watch(i);
   }
 
   void watch(std::size_t number) {
@@ -179,7 +186,6 @@ class Play {
       ASSERT_EQ(seat(number, "answer", std::move(body)), "");
     }
   }
-  /// One step on whatever page the person is on.
   /// Keeps the answer to the test that the page asks about, or takes another prediction of the board.
   std::string discuss(std::size_t number, bool keep = true) {
     const auto shown = room_.view({Viewer::Role::kParticipant, number}, now_us_)["discuss"];
@@ -190,6 +196,7 @@ class Play {
     return seat(number, "discuss", {{"test", shown["index"]}, {"choice", choice}, {"ms", 5}});
   }
 
+  /// One step on whatever page the person is on.
   void act(std::size_t number, bool right = true) {
     const auto stage = room_.stage_of(number);
     if (stage == "watch") watch(number);
@@ -274,6 +281,17 @@ class Play {
 /// What the person in a seat sees now.
 inline Json page(const Play& play, std::size_t seat) {
   return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
+}
+
+/// Everybody after the events of a play so far.
+inline std::vector<TaughtPerson> people_of(Play& play) {
+  TaughtPeople taught;
+  Room room{play.study_of_room(), play.room().setup(), play.cache()};
+  for (const auto& event : play.events()) {
+    room.apply(event, play.cache());
+    taught.see(room);
+  }
+  return taught.all(room);
 }
 
 }  // namespace kith::testing

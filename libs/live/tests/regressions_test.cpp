@@ -7,11 +7,8 @@ namespace kith {
 namespace {
 
 using testing::live_study;
+using testing::page;
 using testing::Play;
-
-Json page_of(const Play& play, std::size_t seat) {
-  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
-}
 
 // https://github.com/empiricaly/empirica/issues/579 and 598: an unready member leaves the whole group loading.
 TEST(LobbyRegression, AnUnreadyMemberDoesNotLeaveTheGroupLoading) {
@@ -19,14 +16,14 @@ TEST(LobbyRegression, AnUnreadyMemberDoesNotLeaveTheGroupLoading) {
   play.join(3);
   play.get_ready(1);
   play.get_ready(2);
-  EXPECT_EQ(page_of(play, 1)["lobby"]["present"], 2);
-  EXPECT_GT(page_of(play, 1)["lobby"]["until_ms"], page_of(play, 1)["server_ms"]);  // the page says until when
+  EXPECT_EQ(page(play, 1)["lobby"]["present"], 2);
+  EXPECT_GT(page(play, 1)["lobby"]["until_ms"], page(play, 1)["server_ms"]);  // the page says until when
   play.wait(119);
   EXPECT_EQ(play.room().stage_of(1), "lobby");
   play.wait(2);
   EXPECT_EQ(play.room().stage_of(1), "ended");
-  EXPECT_TRUE(page_of(play, 1)["end"].contains("code"));
-  EXPECT_FALSE(page_of(play, 3)["end"].contains("code"));  // never was ready
+  EXPECT_TRUE(page(play, 1)["end"].contains("code"));
+  EXPECT_FALSE(page(play, 3)["end"].contains("code"));  // never was ready
   play.expect_replay();
 }
 
@@ -42,7 +39,7 @@ TEST(LobbyRegression, SomebodyElseTakesTheSeatOfAMemberWhoClosedTheBrowser) {
   ASSERT_EQ(play.send("server", "join"), "");
   play.get_ready(4);
   EXPECT_EQ(play.room().stage_of(4), "watch");
-  EXPECT_EQ(page_of(play, 4)["me"]["label"], "Learner C");
+  EXPECT_EQ(page(play, 4)["me"]["label"], "Learner C");
   EXPECT_EQ(play.room().stage_of(3), "replaced");  // the old link does not show the new person's page
 }
 
@@ -55,8 +52,8 @@ TEST(LobbyRegression, WhoeverOpensALinkAfterTheEndIsToldSo) {
   EXPECT_EQ(play.send("server", "join", {{"seat", 2}}), "started");
   EXPECT_EQ(play.room().stage_of(2), "ended");
   EXPECT_TRUE(play.room().is_done(2));
-  EXPECT_EQ(page_of(play, 2)["end"]["text"], "The session was ended by the people who run it.");
-  EXPECT_FALSE(page_of(play, 2)["end"].contains("code"));
+  EXPECT_EQ(page(play, 2)["end"]["text"], "The session was ended by the people who run it.");
+  EXPECT_FALSE(page(play, 2)["end"].contains("code"));
   play.expect_replay();
 }
 
@@ -94,16 +91,16 @@ TEST(LobbyRegression, TimesAreKept) {
   Play play{live_study("[group]\ntime = { lobby_s = 600, leave_after_s = 60 }\n")};
   play.join(3);
   play.get_ready(1);
-  EXPECT_EQ(page_of(play, 1)["lobby"]["leave_after_ms"], play.now() / 1000 + 60'000);
+  EXPECT_EQ(page(play, 1)["lobby"]["leave_after_ms"], play.now() / 1000 + 60'000);
   play.wait(30);
   play.get_ready(2);
-  EXPECT_EQ(page_of(play, 1)["lobby"]["present"], 2);
+  EXPECT_EQ(page(play, 1)["lobby"]["present"], 2);
   play.wait(31);
-  EXPECT_LT(page_of(play, 1)["lobby"]["leave_after_ms"], play.now() / 1000);
-  EXPECT_GT(page_of(play, 2)["lobby"]["leave_after_ms"], play.now() / 1000);
+  EXPECT_LT(page(play, 1)["lobby"]["leave_after_ms"], play.now() / 1000);
+  EXPECT_GT(page(play, 2)["lobby"]["leave_after_ms"], play.now() / 1000);
   ASSERT_EQ(play.seat(1, "leave"), "");
-  EXPECT_TRUE(page_of(play, 1)["end"].contains("code"));  // the promised time was waited
-  EXPECT_EQ(page_of(play, 2)["lobby"]["present"], 1);
+  EXPECT_TRUE(page(play, 1)["end"].contains("code"));  // the promised time was waited
+  EXPECT_EQ(page(play, 2)["lobby"]["present"], 1);
   play.wait(600);
   EXPECT_EQ(play.room().stage_of(2), "ended");
   EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
@@ -161,15 +158,14 @@ TEST(PlayRegression, NobodyJoinsAfterTheStart) {
 // Multi-User Gymnasium: reconnecting restarts the scene.
 TEST(PlayRegression, WhoReturnsFindsTheirHalfDrawnPath) {
   Play play{live_study()};
-  play.start(3);
-  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  play.start_tests(3);
   auto path = play.right_path(play.room().session().lesson().tests.front().start);
   path.erase(path.end() - 1);
   ASSERT_EQ(play.seat(1, "draft", {{"test", 0}, {"actions", path}}), "");
   ASSERT_EQ(play.send("server", "away", {{"seat", 1}}), "");
   play.wait(60);
   ASSERT_EQ(play.send("server", "present", {{"seat", 1}}), "");
-  EXPECT_EQ(page_of(play, 1)["predict"]["draft"], path);
+  EXPECT_EQ(page(play, 1)["predict"]["draft"], path);
 }
 
 TEST(PlayRegression, WaitingSaysForWhomAndUntilWhen) {
@@ -177,9 +173,9 @@ TEST(PlayRegression, WaitingSaysForWhomAndUntilWhen) {
   play.start(3);
   play.watch(1);
   ASSERT_EQ(play.send("server", "away", {{"seat", 3}}), "");
-  EXPECT_FALSE(page_of(play, 1).contains("pause"));  // the second person is still at work
+  EXPECT_FALSE(page(play, 1).contains("pause"));  // the second person is still at work
   play.watch(2);
-  const auto view = page_of(play, 1);
+  const auto view = page(play, 1);
   EXPECT_EQ(view["wait"]["missing"], 1);
   EXPECT_EQ(view["pause"]["why"], "someone-away");
   EXPECT_EQ(view["pause"]["until_ms"].get<std::int64_t>() - view["pause"]["since_ms"].get<std::int64_t>(), 60'000);
@@ -190,7 +186,7 @@ TEST(PlayRegression, WhoDeclinesFreesTheSeatAndLeavesNoTrace) {
   ASSERT_EQ(play.send("server", "join"), "");
   ASSERT_EQ(play.seat(1, "consent", {{"accept", false}, {"version", "1"}}), "");
   EXPECT_EQ(play.room().stage_of(1), "declined");
-  EXPECT_FALSE(page_of(play, 1)["end"].contains("code"));
+  EXPECT_FALSE(page(play, 1)["end"].contains("code"));
   EXPECT_EQ(body_of(play.events().back()), Json::object());
   play.join(2);
   play.get_ready(2);

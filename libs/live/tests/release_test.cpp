@@ -154,17 +154,16 @@ TEST(Release, LeavesCommandsAndEventsAsTheyWere) {
 
 TEST(Release, DoesNothingWhileTheGroupMayStillBeTaught) {
   Play play{live_study(kReleased)};
-  auto room = play.room();
-  room.release();
-  EXPECT_TRUE(room.holds_session());
+  const auto is_kept = [&] {
+    auto room = play.room();
+    room.release();
+    return room.holds_session();
+  };
+  EXPECT_TRUE(is_kept());
   play.start(3);
-  room = play.room();
-  room.release();
-  EXPECT_TRUE(room.holds_session());
+  EXPECT_TRUE(is_kept());
   play.play_on({1, 2, 3}, true, 5);
-  room = play.room();
-  room.release();
-  EXPECT_TRUE(room.holds_session());
+  EXPECT_TRUE(is_kept());
 }
 
 #ifdef KITH_COUNTS_BYTES

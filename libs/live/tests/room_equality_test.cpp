@@ -93,10 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Room, ChoosesTheSameLessonWhoeverAnswersFirst) {
   Play a{live_study()}, b{live_study()};
-  for (auto* play : {&a, &b}) {
-    play->start(3);
-    for (std::size_t i = 1; i <= 3; ++i) play->watch(i);
-  }
+  for (auto* play : {&a, &b}) play->start_tests(3);
   for (const std::size_t i : {1u, 2u, 3u}) a.answer(i, i != 2);
   for (const std::size_t i : {3u, 2u, 1u}) b.answer(i, i != 2);
   EXPECT_EQ(digest_of(a.room().session()), digest_of(b.room().session()));

@@ -173,8 +173,7 @@ TEST(Room, AcceptsARepeatedMessageWithoutAnEvent) {
 // A page lets nobody drive that far; a program that does is told the true reason.
 TEST(Room, RefusesAPathThatIsTooLongForWhatItIs) {
   Play play{live_study()};
-  play.start(3);
-  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  play.start_tests(3);
   const auto& study = play.study();
   const auto most = max_answer_actions(study.atlas->domain());
   const auto id = study.atlas->id(play.room().session().lesson().tests.front().start);
@@ -286,8 +285,7 @@ TEST(Room, RefusesWhatCannotBe) {
 
 TEST(Room, StopsShortIsAWrongAnswerAndNoEvidence) {
   Play play{live_study(), "NN"};
-  play.start(2);
-  for (const std::size_t i : {1u, 2u}) play.watch(i);
+  play.start_tests(2);
   play.answer(1);
   const auto tests = play.room().session().lesson().tests.size();
   for (std::size_t t = 0; t < tests; ++t) {

@@ -27,12 +27,7 @@ class WaitingList : public ::testing::Test {
   static std::size_t come(Play& play, bool is_able) {
     EXPECT_EQ(play.send("server", "join"), "");
     const auto seat = play.room().num_seats();
-    EXPECT_EQ(play.seat(seat, "consent", {{"accept", true}, {"version", "1"}}), "");
-    EXPECT_EQ(play.seat(seat, "checked"), "");
-    for (std::size_t t = 0; play.room().stage_of(seat) == "screening"; ++t) {
-      const auto path = is_able ? play.right_path(play.study().screening[t]) : Json::array();
-      EXPECT_EQ(play.seat(seat, "screen", {{"test", t}, {"actions", path}, {"ms", 5}}), "");
-    }
+    play.get_ready(seat, is_able);
     EXPECT_EQ(play.room().stage_of(seat), "lobby");
     play.pass(1.0);
     return seat;

@@ -12,7 +12,6 @@ namespace {
 using ::testing::Contains;
 using testing::Group;
 using testing::Page;
-using testing::pass_with_beats;
 using testing::ScratchFolder;
 using testing::small_study;
 using testing::Stage;
@@ -143,7 +142,7 @@ TEST(LiveService, LogsWhoCameAndWhoWentAway) {
   auto& [scratch, stage, solver, people] = group;
   auto facilitator = stage.facilitator();
   people[2]->disconnect(stage.service());
-  pass_with_beats(stage, people, 12);
+  group.pass(12);
   people[2]->connect(stage.service());
   const auto comings = [&] {
     std::vector<std::pair<std::string, std::string>> found;
@@ -167,7 +166,7 @@ TEST(LiveService, ShowsFacilitatorsHowFarAwayPeopleAre) {
   auto facilitator = stage.facilitator();
   stage.service().measured(people[1]->connection(), std::chrono::microseconds{12'500});
   people[0]->disconnect(stage.service());  // something new, so that the view is sent
-  pass_with_beats(stage, people, 12);
+  group.pass(12);
   stage.show(*facilitator);
   const auto& seats = facilitator->view().at("rooms")[0]["seats"];
   EXPECT_FALSE(seats[0].contains("latency_ms"));

@@ -19,6 +19,15 @@ inline constexpr const char* kQuestions =
     "             { id = \"say\", kind = \"text\", text = \"Anything else?\" }]\n"
     "collect_query = [\"PROLIFIC_PID\"]\n";
 
+/// The page of whoever has that link, up to date.
+[[nodiscard]] inline std::unique_ptr<Page> open_page_of(Stage& stage, const std::string& token) {
+  auto page = std::make_unique<Page>(token, "tab of " + token);
+  page->connect(stage.service());
+  stage.service().settle();
+  page->read();
+  return page;
+}
+
 /// Three people in one room of the study, connected.
 [[nodiscard]] inline std::vector<std::unique_ptr<Page>> three_people(Stage& stage) {
   const auto code = stage.join_code();
@@ -34,26 +43,41 @@ inline constexpr const char* kQuestions =
   return people;
 }
 
-/// A server with three people in its first room.
-struct Group {
-  explicit Group(const std::string& section = "") : stage{scratch / "live", small_study(section)} {
-    people = three_people(stage);
+/// A server and the people at it.
+struct Hosted {
+  explicit Hosted(SessionStudy study) : stage{scratch / "live", std::move(study)} {}
+  /// Everything happens that is under way, and everybody sees it.
+  void settle() {
+    stage.service().settle();
+    for (auto& person : people) person->read();
   }
-  // The server ends and starts again, and everybody reconnects.
+  /// Time goes by while the pages of those who are connected are open.
+  void pass(int seconds) {
+    for (; seconds > 0; --seconds) {
+      for (auto& person : people) person->beat(stage.service());
+      stage.pass_ms(1000);
+    }
+    settle();
+  }
+  /// The server ends and starts again, and everybody reconnects.
   void restart() {
     stage.restart();
     for (auto& person : people) {
       person->lose();
       person->connect(stage.service());
     }
-    stage.service().settle();
-    for (auto& person : people) person->read();
+    settle();
   }
 
   ScratchFolder scratch;
   Stage stage;
   Solver solver{stage.study().study};
   std::vector<std::unique_ptr<Page>> people;
+};
+
+/// A server with three people in its first room.
+struct Group : Hosted {
+  explicit Group(const std::string& section = "") : Hosted{small_study(section)} { people = three_people(stage); }
 };
 
 /// Until everybody is at a stage.
@@ -73,14 +97,6 @@ struct Group {
     if (round % 4 == 3) stage.pass_ms(100);
   }
   return false;
-}
-
-/// Time goes by while the pages of those who are connected are open.
-inline void pass_with_beats(Stage& stage, std::vector<std::unique_ptr<Page>>& people, int seconds) {
-  for (; seconds > 0; --seconds) {
-    for (auto& person : people) person->beat(stage.service());
-    stage.pass_ms(1000);
-  }
 }
 
 /// Whether the text is in any file of the session. @pre the server has stopped.

@@ -15,9 +15,9 @@ inline constexpr const char* kScreened =
     "screening = { tests = 2, cut = 0.6, high = \"P\" }\ncollect_query = [\"PID\"]\n";
 
 /// A server whose study screens people, for groups of two novices and somebody able.
-struct Screened {
+struct Screened : Hosted {
   explicit Screened(const std::string& section = "", const std::string& compositions = "\"NNP\"")
-      : stage{scratch / "live", small_study(kScreened + section, compositions)} {}
+      : Hosted{small_study(kScreened + section, compositions)} {}
 
   /// Somebody comes by the study's link, and is screened.
   Page& come(const std::string& name, bool is_able) {
@@ -37,18 +37,6 @@ struct Screened {
     }
     return page;
   }
-  void settle() {
-    stage.service().settle();
-    for (auto& person : people) person->read();
-  }
-  void restart() {
-    stage.restart();
-    for (auto& person : people) {
-      person->lose();
-      person->connect(stage.service());
-    }
-    settle();
-  }
   /// The estimates of a room as facilitators see them, in the order of the seats.
   [[nodiscard]] std::vector<bool> estimates_of(const std::string& room) {
     const auto page = stage.facilitator();
@@ -60,11 +48,6 @@ struct Screened {
     page->disconnect(stage.service());
     return high;
   }
-
-  ScratchFolder scratch;
-  Stage stage;
-  Solver solver{stage.study().study};
-  std::vector<std::unique_ptr<Page>> people;
 };
 
 /// Rows of a table below its header.

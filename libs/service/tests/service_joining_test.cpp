@@ -12,7 +12,7 @@ namespace {
 using testing::Group;
 using testing::is_stored;
 using testing::kQuestions;
-using testing::Page;
+using testing::open_page_of;
 using testing::play;
 using testing::ScratchFolder;
 using testing::small_study;
@@ -72,8 +72,7 @@ TEST(LiveService, KeepsNothingAboutWhoDeclines) {
   people[0]->ask(stage.service(), "consent", {{"accept", false}, {"version", "1"}});
   people[1]->ask(stage.service(), "consent",
                  {{"accept", true}, {"version", "1"}, {"query", {{"PROLIFIC_PID", "forged"}}}});
-  stage.service().settle();
-  for (auto& person : people) person->read();
+  group.settle();
   EXPECT_EQ(people[0]->stage(), "declined");
   EXPECT_EQ(people[1]->stage(), "check");
   stage.stop();
@@ -101,15 +100,6 @@ std::size_t num_people(Stage& stage) {
   std::size_t people = 0;
   for (const auto& room : list_rooms(file)) people += room.joined;
   return people;
-}
-
-// The page of whoever has that link, up to date.
-std::unique_ptr<Page> open_page_of(Stage& stage, const std::string& token) {
-  auto page = std::make_unique<Page>(token, "tab of " + token);
-  page->connect(stage.service());
-  stage.service().settle();
-  page->read();
-  return page;
 }
 
 // Recruitment platforms let people follow the link again; a second seat would be a ghost for whom others wait.

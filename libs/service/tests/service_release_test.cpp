@@ -32,12 +32,9 @@ Json detail_of(Stage& stage) {
 
 // The page of whoever opens this link anew.
 Json page_of(Stage& stage, const std::string& token) {
-  Page page{token, "again"};
-  page.connect(stage.service());
-  stage.service().settle();
-  page.read();
-  page.disconnect(stage.service());
-  auto view = page.view();
+  const auto page = testing::open_page_of(stage, token);
+  page->disconnect(stage.service());
+  auto view = page->view();
   if (view.is_object()) view.erase("server_ms");
   return view;
 }
@@ -113,8 +110,7 @@ TEST(EndedRoom, AcknowledgesWhatItHasAlreadySaved) {
   for (const bool restarts : {false, true}) {
     if (restarts) group.restart();
     people[0]->send(stage.service(), message);
-    stage.service().settle();
-    people[0]->read();
+    group.settle();
     EXPECT_EQ(people[0]->acks().back(), "lost-ack");
   }
 }
@@ -129,8 +125,7 @@ TEST(RunningRoom, KeepsNoLessonThatIsNoLongerLikely) {
     while (person->stage() == "predict") {
       const auto step = next_step(person->view(), solver, false);
       person->ask(stage.service(), step->first, step->second);
-      stage.service().settle();
-      person->read();
+      group.settle();
       EXPECT_LE(stage.service().num_sessions(), 2u) << ++answers;
     }
   }

@@ -18,7 +18,6 @@ namespace {
 
 using testing::exported;
 using testing::Group;
-using testing::pass_with_beats;
 using testing::play;
 using testing::play_until;
 using testing::ScratchFolder;
@@ -80,7 +79,7 @@ TEST(LiveService, ExportsStandInsForPeopleWhoDidNotCome) {
     people[0]->ask(stage.service(), type, {{"accept", true}, {"version", "1"}});
     stage.service().settle();
   }
-  pass_with_beats(stage, people, 62);
+  group.pass(62);
   people.resize(1);
   ASSERT_TRUE(play(stage, people, solver));
   EXPECT_EQ(people[0]->stage(), "debrief");

@@ -88,11 +88,9 @@ TEST(WaitingList, SurvivesARestartWhilePeopleWait) {
 TEST(WaitingList, SendsNobodyHomeWithoutACode) {
   Screened hall{"time = { lobby_s = 60 }\n"};
   auto& able = hall.come("able", true);
-  testing::pass_with_beats(hall.stage, hall.people, 59);
-  hall.settle();
+  hall.pass(59);
   EXPECT_EQ(able.stage(), "lobby");
-  testing::pass_with_beats(hall.stage, hall.people, 2);
-  hall.settle();
+  hall.pass(2);
   EXPECT_EQ(able.stage(), "ended");
   EXPECT_NE(able.view()["end"].value("code", ""), "");
   const auto tables = exported(hall.stage, {.with_names = true});
@@ -105,8 +103,7 @@ TEST(WaitingList, SendsNobodyHomeWithoutACode) {
 TEST(WaitingList, FillsUpWithSimulatedLearnersWhenTheTimeIsOver) {
   Screened hall{"time = { lobby_s = 60 }\ndropout = { policy = \"simulate\" }\n"};
   auto& able = hall.come("able", true);
-  testing::pass_with_beats(hall.stage, hall.people, 61);
-  hall.settle();
+  hall.pass(61);
   EXPECT_EQ(able.stage(), "watch");
   EXPECT_EQ(hall.stage.service().num_rooms(), 1u);
   ASSERT_TRUE(play(hall.stage, hall.people, hall.solver));
@@ -121,8 +118,7 @@ TEST(WaitingList, EndsTheWaitWhenNoRoomCanBeMade) {
   hall.come("second", false);
   auto& able = hall.come("able", true);
   EXPECT_EQ(able.stage(), "lobby");
-  testing::pass_with_beats(hall.stage, hall.people, 125);
-  hall.settle();
+  hall.pass(125);
   for (const auto& person : hall.people) EXPECT_EQ(person->stage(), "ended") << person->name();
 }
 
