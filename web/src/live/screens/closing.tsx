@@ -12,12 +12,9 @@ import { pathOf } from './feedback';
 import { hasText, isEnglish, sentence, t, type TextKey } from '../../shared/texts';
 import { transport } from '../../shared/transport';
 
-interface DebriefProps extends ScreenProps {
-  debrief: NonNullable<ParticipantView['debrief']>;
-  isSaved: boolean;
-}
+type Shown = NonNullable<ParticipantView['debrief']>;
 
-export function Debrief({ debrief, isSaved, view, connection }: DebriefProps): JSX.Element {
+export function Debrief({ debrief, isSaved, view, connection }: ScreenProps & { debrief: Shown; isSaved: boolean }): JSX.Element {
   const { code, redirect, rounds, right, tests, summary, not_reached } = debrief;
   const [memory] = useState(remembered);
   return (

@@ -32,7 +32,7 @@ export function Watch(props: ScreenProps & { watch: Shown }): JSX.Element {
     return kept?.key === key ? kept.frames : null;
   });
   const { world } = useWorld(watch.world, token);
-  if (watch.world === undefined || sketch) return <Watching {...props} sketch={sketch ?? []} />;
+  if (watch.world === undefined || sketch) return <Watching {...props} sketch={sketch ?? []} name={key} />;
   const done = (frames: Frame[]): void => {
     keep('sketch', { key, frames });
     setSketch(frames);
@@ -87,16 +87,14 @@ function Sketching({ world, watch, name, onDone }: SketchingProps): JSX.Element 
 type WatchingProps = ScreenProps & { watch: Shown };
 
 // `sketch` is empty where there is none.
-function Watching({ sketch, ...props }: WatchingProps & { sketch: Frame[] }): JSX.Element {
+function Watching({ sketch, name, ...props }: WatchingProps & { sketch: Frame[]; name: string }): JSX.Element {
   const { watch, view } = props;
   const { board, runs } = watch;
-  const { part = 0, round = 0 } = view.progress ?? {};
-  const key = `${part}.${round}.${watch.index}`;
-  const [wasSeen, setSeen] = useState(() => recall<string>('seen') === key);
+  const [wasSeen, setSeen] = useState(() => recall<string>('seen') === name);
   const seen = (): void => {
     if (wasSeen) return;
     setSeen(true);
-    keep('seen', key);
+    keep('seen', name);
   };
   return (
     <>
