@@ -141,11 +141,8 @@ class ParticipantPage {
     const auto components = state_.session->components();
     const auto over = std::count_if(components.begin(), components.end(),
                                     [](ComponentStatus status) { return status != ComponentStatus::kOpen; });
-    const auto rounds = state_.session->periods();
-    const bool between = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
-    // While feedback is read the next lesson may be there already: it must not show.
-    const auto round = rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u);
-    return {part(over, components.size()), round, state_.session->options().max_periods, components.size()};
+    return {part(over, components.size()), current_period(state_), state_.session->options().max_periods,
+            components.size()};
   }
   // That of the lesson that is being taught. Feedback belongs to it, too, also if the part is finished now.
   [[nodiscard]] std::size_t part(std::ptrdiff_t over, std::size_t parts) const {

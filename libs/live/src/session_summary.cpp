@@ -39,6 +39,10 @@ std::size_t num_periods(const Room::State& state) {
   return state.summary ? state.summary->periods : state.session->periods();
 }
 
+std::size_t current_period(const Room::State& state) {
+  return num_periods(state) + (is_running(state) && state.phase != RoomPhase::kFeedback ? 1u : 0u);
+}
+
 std::span<const ComponentStatus> components_of(const Room::State& state) {
   return state.summary ? std::span<const ComponentStatus>{state.summary->components} : state.session->components();
 }

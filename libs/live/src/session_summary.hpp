@@ -40,6 +40,8 @@ struct SessionSummary {
 [[nodiscard]] const std::string& strategy_name(const Room::State& state);
 /// Completed periods.
 [[nodiscard]] std::size_t num_periods(const Room::State& state);
+/// The period that people are in, from 1. While they read feedback the next lesson may be there: it does not count.
+[[nodiscard]] std::size_t current_period(const Room::State& state);
 [[nodiscard]] std::span<const ComponentStatus> components_of(const Room::State& state);
 /// The lesson of the last completed period; null if there is none.
 [[nodiscard]] const Lesson* last_lesson(const Room::State& state);
