@@ -127,8 +127,7 @@ template <HasMembers T>
 Json written(const T& object) {
   Json json = Json::object();
   for_each_member(object, [&](const auto& member, const auto& value) {
-    if (member.asked && !member.asked->is_stored) return;
-    if (member.may_miss && is_unset(value)) return;
+    if (!member.is_stored() || (member.may_miss && is_unset(value))) return;
     auto one = written(value);
     if (!member.name.empty()) {
       json[std::string{member.name}] = std::move(one);

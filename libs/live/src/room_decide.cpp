@@ -3,6 +3,7 @@
 #include "exploration.hpp"
 #include "kith/domains/judgement.hpp"
 #include "room_body.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 
@@ -78,7 +79,7 @@ class SeatDecider : Decider {
     if (state_.phase != RoomPhase::kWatching || !seat_.in_period) {
       return is_running(state_) && state_.phase != RoomPhase::kWatching ? nothing_to_do() : not_now();
     }
-    if (watched.index < seat_.watched) return nothing_to_do();
+    if (watched.index < seat_.watched || is_late(watched.round)) return nothing_to_do();
     return watched.index > seat_.watched ? not_now() : accepted(watched);
   }
 
@@ -90,6 +91,7 @@ class SeatDecider : Decider {
   }
 
   [[nodiscard]] Decision ask(Answered answer) const {
+    if (is_late(answer.round)) return too_late();
     const auto* given =
         answer.test < seat_.paths.size() && seat_.paths[answer.test] ? &*seat_.paths[answer.test] : nullptr;
     if (given != nullptr && given->actions == answer.actions && given->for_ever == answer.for_ever) {
@@ -107,6 +109,7 @@ class SeatDecider : Decider {
 
   // No choice: keeps the own answer.
   [[nodiscard]] Decision ask(Discussed decided) const {
+    if (is_late(decided.round)) return too_late();
     if (state_.phase != RoomPhase::kDiscussing || !seat_.in_period) {
       return state_.phase == RoomPhase::kTesting || state_.phase == RoomPhase::kWatching ? not_now() : too_late();
     }
@@ -119,11 +122,11 @@ class SeatDecider : Decider {
     return accepted(decided);
   }
 
-  [[nodiscard]] Decision ask(Continued) const {
+  [[nodiscard]] Decision ask(Continued continued) const {
     if (state_.phase != RoomPhase::kFeedback || !seat_.in_period) {
       return is_running(state_) || state_.phase == RoomPhase::kQuestions ? nothing_to_do() : not_now();
     }
-    return seat_.has_continued ? nothing_to_do() : accepted(Continued{});
+    return seat_.has_continued || is_late(continued.round) ? nothing_to_do() : accepted(continued);
   }
 
   [[nodiscard]] std::optional<Decision> closed(OfKind<Explored>) const {
@@ -187,6 +190,10 @@ class SeatDecider : Decider {
   [[nodiscard]] static Decision bad_body() { return refused("bad-body", std::string{kIncomplete}); }
   [[nodiscard]] static Decision not_now() { return refused("not-now", "This is not possible at the moment."); }
   [[nodiscard]] static Decision too_late() { return refused("too-late", "The group has moved on."); }
+  // Whether it was meant for another round: pages send again what was not acknowledged, however late that is.
+  [[nodiscard]] bool is_late(const std::optional<std::size_t>& round) const {
+    return round && *round != current_period(state_);
+  }
 
   [[nodiscard]] bool is_right(StartIndex start, const JudgedPath& judged) const {
     const auto& atlas = *room_.study.atlas;

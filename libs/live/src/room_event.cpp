@@ -63,7 +63,7 @@ RoomEvent room_event(std::uint64_t seq, std::int64_t at_us, std::string actor, s
   RoomEvent event{seq, at_us, std::move(actor), {}};
   std::size_t known = 0;
   const auto take = [&](const auto& member, auto& value) {
-    if (member.asked && !member.asked->is_stored) return;
+    if (!member.is_stored()) return;
     const auto found = body.find(std::string{member.name});
     if (found == body.end() && member.may_miss) return;
     if (found == body.end() || !read(*found, value)) throw wrong("it has no valid '" + std::string{member.name} + "'");

@@ -91,6 +91,9 @@ TEST(Discussion, ASecondTabCannotDecideOtherwise) {
   const Json kept{{"test", page(play, 1)["discuss"]["index"]}, {"choice", nullptr}, {"ms", 5}};
   auto taken = kept;
   taken["choice"] = 0;
+  taken["round"] = 2;
+  EXPECT_EQ(play.seat(1, "discuss", taken), "too-late");  // another round's
+  taken.erase("round");
   EXPECT_EQ(play.seat(1, "discuss", kept), "");
   EXPECT_EQ(play.seat(1, "discuss", kept), "");  // sent again
   EXPECT_EQ(play.seat(1, "discuss", taken), "already-answered");

@@ -170,6 +170,35 @@ TEST(Room, AcceptsARepeatedMessageWithoutAnEvent) {
   EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array()}, {"ms", 1}}), "already-answered");
 }
 
+// The group moved on while somebody had no connection: what they send again is not taken for the next round's.
+TEST(Room, TakesNothingThatWasMeantForAnotherRound) {
+  Play play{live_study("[group]\ntime = { watch_s = 10, predict_s = 20, feedback_s = 30 }\n"), "NN"};
+  play.start(2);
+  play.wait(10 + 20 + 30);
+  ASSERT_EQ(page(play, 1)["stage"], "watch");
+  ASSERT_EQ(page(play, 1)["progress"]["round"], 2);
+  const auto events_after = [&](const std::string& type, Json body, std::size_t round) {
+    const auto before = play.events().size();
+    body["round"] = round;
+    EXPECT_EQ(play.seat(1, type, body), "") << type;
+    return play.events().size() - before;
+  };
+  EXPECT_EQ(events_after("watched", {{"demo", 0}}, 1), 0u);
+  EXPECT_EQ(events_after("watched", {{"demo", 0}}, 2), 1u);
+  for (const std::size_t seat : {1u, 2u}) play.watch(seat);
+  const auto path = play.right_path(play.room().session().lesson().tests.front().start);
+  Json answer{{"test", 0}, {"actions", path}, {"ms", 1}, {"round", 1}};
+  EXPECT_EQ(play.seat(1, "answer", answer), "too-late");
+  EXPECT_EQ(page(play, 1)["predict"]["index"], 0);
+  answer["round"] = -1;
+  EXPECT_EQ(play.seat(1, "answer", answer), "bad-body");
+  EXPECT_EQ(events_after("answer", answer, 2), 1u);
+  for (const std::size_t seat : {1u, 2u}) play.answer(seat);
+  EXPECT_EQ(events_after("continue", Json::object(), 1), 0u);
+  EXPECT_EQ(events_after("continue", Json::object(), 2), 1u);
+  play.expect_replay();
+}
+
 // A page lets nobody drive that far; a program that does is told the true reason.
 TEST(Room, RefusesAPathThatIsTooLongForWhatItIs) {
   Play play{live_study()};

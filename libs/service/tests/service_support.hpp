@@ -248,7 +248,9 @@ class Page {
   if (stage == "consent")
     return std::pair{std::string{"consent"}, Json{{"accept", true}, {"version", view["consent"]["version"]}}};
   if (stage == "check") return std::pair{std::string{"checked"}, Json::object()};
-  if (stage == "watch") return std::pair{std::string{"watched"}, Json{{"demo", view["watch"]["index"]}}};
+  const auto round = view.value(Json::json_pointer{"/progress/round"}, 0);
+  if (stage == "watch")
+    return std::pair{std::string{"watched"}, Json{{"demo", view["watch"]["index"]}, {"round", round}}};
   if (stage == "predict" || stage == "screening" || stage == "exam") {
     const auto& predict = view["predict"];
     const auto world = predict["world"].get<std::string>();
@@ -260,9 +262,10 @@ class Page {
     if (stage == "screening") return std::pair{std::string{"screen"}, body};
     if (stage == "exam") return std::pair{std::string{"examine"}, body};
     body["keys"] = keys;
+    body["round"] = round;
     return std::pair{std::string{"answer"}, body};
   }
-  if (stage == "feedback") return std::pair{std::string{"continue"}, Json::object()};
+  if (stage == "feedback") return std::pair{std::string{"continue"}, Json{{"round", round}}};
   if (stage == "questions") {
     Json answers = Json::object();
     for (const auto& item : view["questions"]["items"]) {

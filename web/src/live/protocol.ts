@@ -88,14 +88,14 @@ export interface Commands {
   checked: Record<string, never>;
   name: { name: string };
   screen: { test: number; actions: number[]; ms: number; for_ever?: boolean };
-  watched: { demo: number };
+  watched: { demo: number; round?: number };
   draft: { test: number; actions: number[] };
-  answer: { test: number; actions: number[]; keys?: KeyPress[]; ms: number; for_ever?: boolean };
-  continue: Record<string, never>;
+  answer: { test: number; actions: number[]; keys?: KeyPress[]; ms: number; for_ever?: boolean; round?: number };
+  continue: { round?: number };
   explore: { start: Frame; world?: number; map?: string[] };
   questions: { answers: Record<string, string | number> };
   leave: Record<string, never>;
-  discuss: { test: number; choice?: number | null; ms: number };
+  discuss: { test: number; choice?: number | null; ms: number; round?: number };
   examine: { test: number; actions: number[]; ms: number; for_ever?: boolean };
 }
 

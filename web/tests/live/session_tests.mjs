@@ -58,7 +58,7 @@ export function sessionTests(setting) {
         }
         for (const { wire, frames } of people) {
           for (const { body } of wire.of('answer')) {
-            assert.ok(body.ms > 0 && body.keys.length >= body.actions.length);
+            assert.ok(body.ms > 0 && body.keys.length >= body.actions.length && body.round > 0);
             assert.ok(body.keys.every(([, ms], i) => ms >= 0 && (i === 0 || ms >= body.keys[i - 1][1])));
           }
           assert.deepEqual(wire.of('questions')[0].body.answers, { clear: 6, robots: 'sometimes', free: 'nothing' });

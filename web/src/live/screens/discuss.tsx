@@ -24,7 +24,7 @@ export function Discuss({ discuss, view, connection }: ScreenProps & { discuss: 
   const off = isSent || connection.isPending('discuss');
   const decide = (choice: number | null): void => {
     setSent(true);
-    connection.send('discuss', { test: discuss.index, choice, ms: Math.round(performance.now() - begun.current) });
+    connection.send('discuss', { test: discuss.index, choice, ms: Math.round(performance.now() - begun.current), round: view.progress?.round ?? 0 });
   };
   const hasOwn = predictions.some(({ own }) => own);
   return (

@@ -37,7 +37,7 @@ export function Feedback({ feedback, view, connection, token }: ScreenProps & { 
   const next = (
     <div class="submit act-bar">
       {isLast && feedback.all_right && feedback.tests.length > 1 && <p>{t('feedback.all_right')}</p>}
-      <Button primary off={off} onClick={() => (isLast ? connection.send('continue', {}) : go(index + 1))}>
+      <Button primary off={off} onClick={() => (isLast ? connection.send('continue', { round }) : go(index + 1))}>
         {t(off ? 'feedback.continuing' : isLast ? 'common.continue' : 'common.next')}
       </Button>
       {isLast && <p class="muted">{t(nextKey(feedback, view.group.size))}</p>}

@@ -69,7 +69,7 @@ function Answering({ task, kind, view, connection, world, legend }: Props & { wo
   const submit = (): void => {
     const answer = { test: task.index, actions: drive.actions, ...(isForEver ? { for_ever: true as const } : {}), ms: drive.ms() };
     setSubmitted(true);
-    if (kind === 'predict') connection.send('answer', { ...answer, keys: drive.keys() });
+    if (kind === 'predict') connection.send('answer', { ...answer, keys: drive.keys(), round });
     else connection.send(kCommands[kind], answer);
   };
   return (

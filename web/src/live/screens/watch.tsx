@@ -175,14 +175,14 @@ function WatchingPath({ sketch, wasSeen, onSeen, ...props }: WatchingProps & See
   );
 }
 
-function GoOn({ watch, connection, wasSeen, hint: text }: WatchingProps & { wasSeen: boolean; hint: string }): JSX.Element {
+function GoOn({ watch, view, connection, wasSeen, hint: text }: WatchingProps & { wasSeen: boolean; hint: string }): JSX.Element {
   return (
     <div class="submit act-bar">
       <Button
         primary={wasSeen}
         off={!wasSeen || connection.isPending('watched')}
         describedBy="watch-hint"
-        onClick={() => connection.send('watched', { demo: watch.index })}
+        onClick={() => connection.send('watched', { demo: watch.index, round: view.progress?.round ?? 0 })}
       >
         {t('common.next')}
       </Button>

@@ -38,6 +38,7 @@ struct Member {
   T Owner::*at = nullptr;
   std::string_view type{};        ///< In TypeScript; empty: that of T.
   std::optional<Limits> asked{};  ///< What commands may say of it; nothing: it is not asked for.
+  [[nodiscard]] constexpr bool is_stored() const { return !asked || asked->is_stored; }
 };
 
 /// A tuple of members: of each its name, with '?' if it is left out unless it is set, a pointer to it and, if it is

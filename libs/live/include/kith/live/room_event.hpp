@@ -55,6 +55,8 @@ inline constexpr Limits kFew{.most = 1000};
 inline constexpr Limits kTime{.most = 86'400'000};
 inline constexpr Limits kVersion{.longest = 100};
 inline constexpr Limits kMayMiss{.may_miss = true};
+/// Which round the page showed: what was meant for one that is over does not count for another.
+inline constexpr Limits kRound{.is_stored = false};
 inline constexpr Limits kPlace{.least = 1, .reason = "no-seat", .text = "There is no such place in this group."};
 inline constexpr Limits kPlanned{.reason = "not-now",
                                  .text = "Somebody has come or gone since this group was planned."};
@@ -170,7 +172,8 @@ struct LessonChosen {
 struct Watched {
   static constexpr RoomEventKind kKind{"watched", "watched", kSeat};
   std::size_t index = 0;
-  static constexpr auto kMembers = members("demo", &Watched::index, kFew);
+  std::optional<std::size_t> round{};
+  static constexpr auto kMembers = members("demo", &Watched::index, kFew, "round?", &Watched::round, kRound);
 };
 
 /// What somebody has of a path so far.
@@ -191,10 +194,11 @@ struct Answered {
   std::int64_t ms = 0;
   bool for_ever = false;
   Json erased{};
+  std::optional<std::size_t> round{};
   static constexpr auto kMembers =
       members("test", &Answered::test, kFew, "actions", &Answered::actions, kFew, "keys", &Answered::keys,
               Limits{.may_miss = true, .fits = are_keys, .type = "KeyPress[]"}, "ms", &Answered::ms, kTime, "for_ever?",
-              &Answered::for_ever, Limits{}, "erased?", &Answered::erased);
+              &Answered::for_ever, Limits{}, "erased?", &Answered::erased, "round?", &Answered::round, kRound);
 };
 
 /// Somebody has seen the answers of the group to a test and keeps the own one, or takes one of the board.
@@ -203,14 +207,16 @@ struct Discussed {
   std::size_t test = 0;
   std::optional<std::size_t> choice{};
   std::int64_t ms = 0;
-  static constexpr auto kMembers =
-      members("test", &Discussed::test, kFew, "choice", &Discussed::choice, kFew, "ms", &Discussed::ms, kTime);
+  std::optional<std::size_t> round{};
+  static constexpr auto kMembers = members("test", &Discussed::test, kFew, "choice", &Discussed::choice, kFew, "ms",
+                                           &Discussed::ms, kTime, "round?", &Discussed::round, kRound);
 };
 
 /// Somebody has seen the feedback.
 struct Continued {
   static constexpr RoomEventKind kKind{"continued", "continue", kSeat};
-  static constexpr std::tuple<> kMembers{};
+  std::optional<std::size_t> round{};
+  static constexpr auto kMembers = members("round?", &Continued::round, kRound);
 };
 
 /// Somebody asked where the robot would go from `start` (a frame as pages have it): in a world of the domain, or on a
@@ -385,11 +391,12 @@ struct Ended {
   static constexpr auto kMembers = members("reason", &Ended::reason, kReason, "text", &Ended::text);
 };
 
-/// Events are equal if all of their members are.
+/// Events are equal if all of their members are that are stored.
 template <typename Event>
 requires requires { Event::kKind; }
 bool operator==(const Event& a, const Event& b) {
-  return std::apply([&](const auto&... member) { return ((a.*member.at == b.*member.at) && ...); }, Event::kMembers);
+  const auto is_same = [&](const auto& member) { return !member.is_stored() || a.*member.at == b.*member.at; };
+  return std::apply([&](const auto&... member) { return (is_same(member) && ...); }, Event::kMembers);
 }
 
 }  // namespace happening
