@@ -76,7 +76,8 @@ void Directory::move(const Place& from, const Place& to) {
   auto contact = contacts_.extract(from);
   if (contact.empty()) return;
   contact.key() = to;
-  contacts_.insert(std::move(contact));
+  // That they are away was told to the list alone.
+  if (contacts_.insert(std::move(contact)).position->second.is_away) tell_presence(to, "away");
 }
 
 Place Directory::place_of(const Identity& identity) const {

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "faulty_disk.hpp"
 #include "kith/service/live_service.hpp"
 #include "kith/store/session_review.hpp"
 #include "service_hall.hpp"
@@ -12,6 +13,7 @@ namespace kith {
 namespace {
 
 using testing::exported;
+using testing::FaultyDisk;
 using ::testing::HasSubstr;
 using testing::is_stored;
 using ::testing::Not;
@@ -120,6 +122,24 @@ TEST(WaitingList, EndsTheWaitWhenNoRoomCanBeMade) {
   EXPECT_EQ(able.stage(), "lobby");
   hall.pass(125);
   for (const auto& person : hall.people) EXPECT_EQ(person->stage(), "ended") << person->name();
+}
+
+// Otherwise only the list would know, and the group wait for ever.
+TEST(WaitingList, TellsTheGroupWhoWentAwayWhileItWasSaved) {
+  const FaultyDisk disk;
+  Screened hall{"time = { lobby_s = 60 }\ndropout = { policy = \"simulate\", grace_s = 30 }\n"};
+  hall.come("able", true);
+  auto& gone = hall.come("gone", false);
+  hall.pass(55);
+  gone.disconnect(hall.stage.service());
+  FaultyDisk::fail(1, 1'000'000, FaultyDisk::Fault::kFull);
+  hall.pass(12);
+  EXPECT_EQ(hall.stage.service().num_rooms(), 0u);
+  FaultyDisk::heal();
+  hall.pass(35);
+  EXPECT_EQ(hall.stage.service().num_rooms(), 1u);
+  hall.people.pop_back();
+  EXPECT_TRUE(play(hall.stage, hall.people, hall.solver, 500));
 }
 
 // The room and the people in it are saved together: there is no moment at which somebody is in both places or in none.
