@@ -86,7 +86,7 @@ Place Directory::place_of(const Identity& identity) const {
 }
 
 void Directory::seat(const Place& place, const std::string& person, const Json& query) {
-  if (!query.empty()) queries_[place] = query;
+  queries_[place] = query;
   if (!person.empty()) seat_of_person_[person] = place;
 }
 

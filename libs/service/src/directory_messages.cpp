@@ -143,7 +143,7 @@ void Directory::message(const ConnectionPtr& connection, const std::string& type
   if (identity.role != Role::kParticipant) return facilitate(connection, type, id, body);
   if (type == happening::Consented::kKind.command) {
     const auto query = queries_.find(place_of(identity));
-    body["query"] = query == queries_.end() ? Json::object() : query->second;
+    if (query != queries_.end()) body["query"] = query->second;  // otherwise the server was stopped since they joined
   }
   tell_room(connection, type, id, body);
 }

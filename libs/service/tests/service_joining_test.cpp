@@ -127,6 +127,22 @@ TEST(LiveService, LeadsWhoFollowsTheLinkAgainBackToTheirSeat) {
   EXPECT_EQ(num_people(stage), 2u);
 }
 
+// What the link said is not stored before the consent, so the page says it once more.
+TEST(LiveService, KnowsWhoConsentsAfterARestart) {
+  Group group{kQuestions};
+  auto& [scratch, stage, solver, people] = group;
+  const Json query{{"PROLIFIC_PID", "pid-a"}, {"other", "x-other"}};
+  group.restart();
+  people[0]->ask(stage.service(), "consent", {{"accept", true}, {"version", "1"}, {"query", query}});
+  group.settle();
+  EXPECT_EQ(people[0]->stage(), "check");
+  const auto returned = open_page_of(stage, stage.join(stage.join_code(), query));
+  EXPECT_EQ(returned->stage(), "check") << "the same seat";
+  stage.stop();
+  EXPECT_TRUE(is_stored(stage, "pid-a"));
+  EXPECT_FALSE(is_stored(stage, "x-other"));
+}
+
 TEST(LiveService, GivesWhoDeclinedAndComesAgainANewSeat) {
   const ScratchFolder scratch;
   Stage stage{scratch / "live", small_study(kQuestions)};

@@ -84,7 +84,7 @@ export interface ParticipantView {
 }
 
 export interface Commands {
-  consent: { accept: boolean; version: string };
+  consent: { accept: boolean; version: string; query?: Record<string, string> };
   checked: Record<string, never>;
   name: { name: string };
   screen: { test: number; actions: number[]; ms: number; for_ever?: boolean };

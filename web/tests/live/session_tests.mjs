@@ -212,7 +212,9 @@ export function sessionTests(setting) {
         assert.equal(joins.length, 2, 'the wrong code and the right one');
         await page.goto(server.origin);
         await person.button('Return to your session').click();
-        await person.at('Before you start');
+        await person.consent();
+        await until(() => person.wire.of('consent').length > 0);
+        assert.deepEqual(person.wire.of('consent')[0].body.query, { PROLIFIC_PID: 'p 1' });
         assert.deepEqual(person.trouble, []);
         await person.close();
       });

@@ -4,6 +4,7 @@ import { useState } from 'preact/hooks';
 import { download } from '../../shared/download';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
+import { recall } from '../storage';
 import type { Stores } from '../../shared/stores';
 import { listed, t } from '../../shared/texts';
 import { transport } from '../../shared/transport';
@@ -20,7 +21,7 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
   const paragraphs = [...consent.paragraphs, ...(transport().isLocal ? transport().notices() : whatIsStored(consent.stores))];
   const agree = (): void => {
     setMissing(!agrees);
-    if (agrees) connection.send('consent', { accept: true, version });
+    if (agrees) connection.send('consent', { accept: true, version, query: recall<Record<string, string>>('query') ?? {} });
   };
   return (
     <>

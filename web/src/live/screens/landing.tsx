@@ -5,6 +5,7 @@ import { Licences } from '../../shared/edges';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
 import { codeOfLink, joinedHere, rememberJoining } from '../session';
+import { keep } from '../storage';
 import { hasText, t } from '../../shared/texts';
 
 interface Reply {
@@ -62,7 +63,9 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
       .then((reply) => {
         if (reply.token) {
           rememberJoining(reply.token);
+          const query = queryOfLink();
           onToken(reply.token);
+          keep('query', query); // the consent says it again, should the server be stopped until then
         } else if (reply.ask) setAsked(true);
         else if (reply.full) onFull(reply.full);
         else setProblem(reply.reason ?? 'failed');

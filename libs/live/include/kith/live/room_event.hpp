@@ -96,8 +96,9 @@ struct Consented {
   std::string version;
   Json query;
   bool accept = true;
-  static constexpr auto kMembers = members("accept", &Consented::accept, Limits{.is_stored = false}, "version",
-                                           &Consented::version, kVersion, "query", &Consented::query, kMayMiss);
+  static constexpr auto kMembers =
+      members("accept", &Consented::accept, Limits{.is_stored = false}, "version", &Consented::version, kVersion,
+              "query", &Consented::query, Limits{.may_miss = true, .type = "Record<string, string>"});
 };
 
 /// Whoever declines is gone, and the seat is free again.
