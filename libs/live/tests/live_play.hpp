@@ -160,9 +160,11 @@ class Play {
     }
   }
   /// Everybody joins and is ready; the session starts if the study says so.
-  void start(std::size_t people) {
+  void start(std::size_t people) { start(people, people); }
+  /// Only so many are ready.
+  void start(std::size_t people, std::size_t ready) {
     join(people);
-    for (std::size_t i = 1; i <= people; ++i) get_ready(i);
+    for (std::size_t i = 1; i <= ready; ++i) get_ready(i);
   }
 
   /// Everybody comes, and has watched what the first lesson shows.

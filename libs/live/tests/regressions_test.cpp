@@ -13,9 +13,7 @@ using testing::Play;
 // https://github.com/empiricaly/empirica/issues/579 and 598: an unready member leaves the whole group loading.
 TEST(LobbyRegression, AnUnreadyMemberDoesNotLeaveTheGroupLoading) {
   Play play{live_study("[group]\ntime = { lobby_s = 120 }\n")};
-  play.join(3);
-  play.get_ready(1);
-  play.get_ready(2);
+  play.start(3, 2);
   EXPECT_EQ(page(play, 1)["lobby"]["present"], 2);
   EXPECT_GT(page(play, 1)["lobby"]["until_ms"], page(play, 1)["server_ms"]);  // the page says until when
   play.wait(119);
@@ -29,9 +27,7 @@ TEST(LobbyRegression, AnUnreadyMemberDoesNotLeaveTheGroupLoading) {
 
 TEST(LobbyRegression, SomebodyElseTakesTheSeatOfAMemberWhoClosedTheBrowser) {
   Play play{live_study("[group]\ndropout = { grace_s = 30 }\n")};
-  play.join(3);
-  play.get_ready(1);
-  play.get_ready(2);
+  play.start(3, 2);
   ASSERT_EQ(play.send("server", "away", {{"seat", 3}}), "");
   EXPECT_EQ(play.send("server", "join"), "full");
   play.wait(31);
@@ -89,8 +85,7 @@ TEST(PlayRegression, ActiveMembersAreNeverRemoved) {
 // Empirica #79: stuck at 60 minutes; deliberate-lab #357: counts that need a refresh.
 TEST(LobbyRegression, TimesAreKept) {
   Play play{live_study("[group]\ntime = { lobby_s = 600, leave_after_s = 60 }\n")};
-  play.join(3);
-  play.get_ready(1);
+  play.start(3, 1);
   EXPECT_EQ(page(play, 1)["lobby"]["leave_after_ms"], play.now() / 1000 + 60'000);
   play.wait(30);
   play.get_ready(2);
@@ -122,9 +117,7 @@ TEST(LobbyRegression, OnePersonMoreThanSeatsGetsAPage) {
 
 TEST(LobbyRegression, OnePersonFewerThanSeatsCanBeStartedByHandOrFilledUp) {
   Play play{live_study("[group]\nauto_start = false\n")};
-  play.join(2);
-  play.get_ready(1);
-  play.get_ready(2);
+  play.start(2);
   play.wait(86'400);
   EXPECT_EQ(play.room().stage_of(1), "lobby");  // the facilitator decides
   ASSERT_EQ(play.facilitator("start"), "");
@@ -134,8 +127,7 @@ TEST(LobbyRegression, OnePersonFewerThanSeatsCanBeStartedByHandOrFilledUp) {
   EXPECT_EQ(play.room().stage_of(2), "debrief");
 
   Play filled{live_study("[group]\ntime = { lobby_s = 60 }\ndropout = { policy = \"simulate\" }\n")};
-  filled.join(3);
-  filled.get_ready(1);
+  filled.start(3, 1);
   filled.wait(61);
   EXPECT_EQ(filled.room().stage_of(1), "watch");
   EXPECT_EQ(filled.room().num_seats(), 5u);  // two stand-ins

@@ -85,8 +85,7 @@ const Ending kEndings[] = {
      }},
     {"in the lobby",
      [](Play& play) {
-       play.join(2);
-       play.get_ready(1);
+       play.start(2, 1);
        ASSERT_EQ(play.facilitator("end"), "");
      }},
 };

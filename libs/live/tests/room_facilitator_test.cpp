@@ -62,8 +62,7 @@ TEST(RoomFacilitator, ShowsTheFacilitatorSinceWhenPeopleAreAtTheirStage) {
   };
   const auto now_ms = [&] { return play.now() / 1000; };
   EXPECT_FALSE(seat(1).contains("stage_since_ms"));  // nobody has come
-  play.join(3);
-  for (std::size_t i = 1; i <= 2; ++i) play.get_ready(i);
+  play.start(3, 2);
   const auto ready = now_ms();
   play.wait(3);
   ASSERT_EQ(play.seat(3, "consent", {{"accept", true}, {"version", "1"}}), "");

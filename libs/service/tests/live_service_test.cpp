@@ -152,9 +152,7 @@ TEST(LiveService, GoesOnAfterARestartInTheMiddleOfAPeriod) {
   Group group;
   auto& [scratch, stage, solver, people] = group;
   ASSERT_TRUE(play_until(stage, people, solver, "predict"));
-  const auto step = next_step(people[0]->view(), solver, true);
-  people[0]->ask(stage.service(), step->first, step->second);
-  group.settle();
+  group.act(*people[0]);
   ASSERT_TRUE(people[0]->unsaved().empty());
   const auto before = people[0]->view();
 
@@ -208,12 +206,7 @@ TEST(LiveService, NoticesWhoIsAwayAndWhoIsBack) {
   auto& [scratch, stage, solver, people] = group;
   ASSERT_TRUE(play_until(stage, people, solver, "predict"));
   for (std::size_t i : {0u, 1u}) {
-    const auto view = people[i]->view();
-    while (people[i]->stage() == "predict") {
-      const auto step = next_step(people[i]->view(), solver, true);
-      people[i]->ask(stage.service(), step->first, step->second);
-      group.settle();
-    }
+    while (people[i]->stage() == "predict") group.act(*people[i]);
   }
   people[2]->disconnect(stage.service());
   group.pass(12);
@@ -241,10 +234,8 @@ TEST(LiveService, SaysNothingUntilItIsSavedAndSavesItWhenTheDiskIsBack) {
   Group group;
   auto& [scratch, stage, solver, people] = group;
   ASSERT_TRUE(play_until(stage, people, solver, "predict"));
-  const auto step = next_step(people[0]->view(), solver, true);
   FaultyDisk::fail(1, 1'000'000, FaultyDisk::Fault::kFull);
-  const auto id = people[0]->ask(stage.service(), step->first, step->second);
-  stage.service().settle();
+  const auto id = group.act(*people[0]);
   stage.pass_ms(3000);
   people[0]->read();
   EXPECT_THAT(people[0]->acks(), ::testing::Not(Contains(id)));

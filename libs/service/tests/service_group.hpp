@@ -51,6 +51,13 @@ struct Hosted {
     stage.service().settle();
     for (auto& person : people) person->read();
   }
+  /// Does what the page of somebody asks for next. @return the id of the message
+  std::string act(Page& person, bool is_right = true) {
+    const auto step = next_step(person.view(), solver, is_right);
+    const auto id = person.ask(stage.service(), step->first, step->second);
+    settle();
+    return id;
+  }
   /// Time goes by while the pages of those who are connected are open.
   void pass(int seconds) {
     for (; seconds > 0; --seconds) {

@@ -23,7 +23,6 @@ using testing::stored;
 Json detail_of(Stage& stage) {
   const auto page = stage.facilitator();
   page->ask(stage.service(), "room-select", {{"room", page->view()["rooms"].front()["id"]}});
-  stage.service().settle();
   stage.show(*page);
   const auto detail = page->view().value("room", Json{});
   page->disconnect(stage.service());
@@ -123,9 +122,7 @@ TEST(RunningRoom, KeepsNoLessonThatIsNoLongerLikely) {
   std::size_t answers = 0;
   for (auto& person : people) {
     while (person->stage() == "predict") {
-      const auto step = next_step(person->view(), solver, false);
-      person->ask(stage.service(), step->first, step->second);
-      group.settle();
+      group.act(*person, false);
       EXPECT_LE(stage.service().num_sessions(), 2u) << ++answers;
     }
   }
