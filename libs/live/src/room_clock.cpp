@@ -96,12 +96,10 @@ class RoomClock {
         dropped.by = state_.seats.size() + 1;
         dropped.type = std::string{seat.type};
       }
-      if (!runs && is_done(seat)) continue;
+      if (!runs && stage_of_seat(room_, seat) == "debrief") continue;  // has finished
       add(seat.presence_us + wait, std::move(dropped));
     }
   }
-
-  [[nodiscard]] bool is_done(const LiveSeat& seat) const { return stage_of_seat(room_, seat) == "debrief"; }
 
   void limits() {
     if (state_.deadline_us) {

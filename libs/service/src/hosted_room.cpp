@@ -163,7 +163,7 @@ void HostedRoom::do_what_can_be_done() {
 // Takes up the next command or what is due by the clock. @return false if there is neither.
 bool HostedRoom::begin_next() {
   if (auto due = room_->due(now()); !due.empty()) {
-    save({.events = std::move(due), .message = {}, .done = {}, .lesson = nullptr});
+    save({.events = std::move(due)});
     return true;
   }
   if (asked_.empty()) return false;
@@ -184,7 +184,6 @@ bool HostedRoom::begin_next() {
   save({.events = std::move(decision.events),
         .message = id,
         .done = std::move(asked.done),
-        .lesson = nullptr,
         .with = std::move(asked.with)});
   return true;
 }
@@ -195,14 +194,9 @@ void HostedRoom::save(Saving saving) {
 }
 
 void HostedRoom::hand_in() {
-  StoreBatch batch;
+  auto batch = saving_->with;
   for (const auto& event : saving_->events) batch.events.push_back(to_stored(number(), event));
   if (!saving_->message.empty()) batch.events.back().message = saving_->message;
-  const auto& with = saving_->with;
-  batch.rooms = with.rooms;
-  batch.tokens = with.tokens;
-  batch.revoked = with.revoked;
-  batch.events.insert(batch.events.end(), with.events.begin(), with.events.end());
   service_.save(std::move(batch),
                 [self = shared_from_this()](bool saved) { self->post([self, saved] { self->on_saved(saved); }); });
 }
@@ -283,7 +277,7 @@ void HostedRoom::seek_lesson() {
   const auto found = lessons_.find(wanted_);
   if (wanted_.empty() || found == lessons_.end() || !found->second) return;
   const auto lesson = found->second;
-  save({.events = {room_->taught(*lesson, now())}, .message = {}, .done = {}, .lesson = lesson});
+  save({.events = {room_->taught(*lesson, now())}, .lesson = lesson});
 }
 
 void HostedRoom::look_ahead() {

@@ -90,9 +90,9 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   // Events on their way to the disk. `message` is the id of the message that led to the last one.
   struct Saving {
     std::vector<RoomEvent> events;
-    std::string message;
-    Done done;
-    std::shared_ptr<const TaughtLesson> lesson;
+    std::string message{};
+    Done done{};
+    std::shared_ptr<const TaughtLesson> lesson{};
     StoreBatch with{};
     bool has_failed = false;
   };
