@@ -248,6 +248,8 @@ class ServerDecider : Decider {
 
   [[nodiscard]] Decision decide() const {
     if (!command_.body.is_object()) return refused("bad-body", "the body is not an object");
+    const bool is_halt = command_.type == Paused::kKind.command || command_.type == Resumed::kKind.command;
+    if (is_halt) return decide_facilitator(room_, command_, now_us_);  // while it was stopped
     if (!is_command(RoomSender::kServer, command_.type)) {
       return refused("unknown-type", "the server has no command '" + command_.type + "'");
     }

@@ -106,7 +106,14 @@ void HostedRoom::finish_rebuild(Rebuilt rebuilt) {
   }
   has_changed_ = true;
   if (room_) service_.on_applied(*this, {});
-  advance();
+  if (!room_ || now() - last_us_ < kSecond) return advance();
+
+  // Nobody's time went by while the server was stopped. When that was is not known better than by the last event.
+  const Json why{{"reason", "The server was stopped."}};
+  auto halt = room_->decide({.actor = "server", .type = "pause", .body = why, .id = {}}, last_us_).events;
+  if (halt.empty()) return advance();
+  halt.push_back({halt.back().seq + 1, now(), "server", happening::Resumed{why["reason"]}});
+  save({.events = std::move(halt)});
 }
 
 void HostedRoom::ask(RoomCommand command, Done done, StoreBatch with) {

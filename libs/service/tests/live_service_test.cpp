@@ -164,6 +164,20 @@ TEST(LiveService, GoesOnAfterARestartInTheMiddleOfAPeriod) {
   for (const auto& person : people) EXPECT_EQ(person->stage(), "debrief");
 }
 
+// Limits and grace periods begin where they were, or later: when the server stopped is known by the last event.
+TEST(LiveService, LetsNoTimeGoByWhileTheServerIsStopped) {
+  Group group{"time = { predict_s = 120, max_minutes = 5 }\ndropout = { grace_s = 60 }\n"};
+  auto& [scratch, stage, solver, people] = group;
+  ASSERT_TRUE(play_until(stage, people, solver, "predict"));
+  people[2]->disconnect(stage.service());
+  group.pass(30);
+  stage.stop();
+  stage.clock().advance_ms(600'000);
+  group.restart();
+  for (const auto& person : people) EXPECT_EQ(person->stage(), "predict");
+  EXPECT_GT(people[0]->view()["limit_ms"], people[0]->view()["server_ms"].get<std::int64_t>() + 80'000);
+}
+
 TEST(LiveService, AcknowledgesARepeatedMessageWithoutEffect) {
   Group group;
   auto& [scratch, stage, solver, people] = group;
