@@ -4,16 +4,10 @@
 #include <utility>
 
 #include "kith/store/json_members.hpp"
+#include "kith/store/session_review.hpp"
 #include "service_state.hpp"
 
 namespace kith {
-
-std::string person_of(const LiveStudy& study, const Json& query) {
-  const auto& collected = study.group().collect_query;
-  const auto value =
-      collected.empty() || !query.is_object() ? std::string{} : text_at(query, collected.front().c_str());
-  return value.find("{{") == std::string::npos ? value : std::string{};  // what the platform did not fill in
-}
 
 void Directory::add(const std::shared_ptr<HostedRoom>& room) {
   rooms_.emplace(room->number(), room);
@@ -107,7 +101,7 @@ void Directory::note(std::int64_t room, const std::string& actor, const std::str
   const auto named = static_cast<std::int64_t>(count_at(body, "seat"));
   if (is(happening::Joined::kKind)) joined({room, named});
   if (is(happening::Consented::kKind)) {
-    const auto person = person_of(*service_.study, body.value("query", Json::object()));
+    const auto person = platform_id(*service_.study, body.value("query", Json::object()));
     if (!person.empty()) seat_of_person_[person] = {room, by_actor};
   }
   if (is(happening::Consented::kKind) || is(happening::Declined::kKind)) queries_.erase({room, by_actor});

@@ -25,10 +25,6 @@ struct ServiceState;
 // A seat of a room.
 using Place = std::pair<std::int64_t, std::int64_t>;
 
-// What tells a person apart from all others: the value of the first parameter that the study collects; empty if it is
-// not there.
-[[nodiscard]] std::string person_of(const LiveStudy& study, const Json& query);
-
 // Who and what there is: rooms, links and where they lead, connections, and what these ask for. On the strand of the
 // desk, but for what says otherwise.
 class Directory {
@@ -111,7 +107,7 @@ class Directory {
   std::map<Place, Contact> contacts_;            // of people
   std::map<Place, Place> moved_;                 // from the waiting list to a group: whose links lead there now
   std::map<Place, Place> came_from_;             // the reverse
-  std::map<std::string, Place> seat_of_person_;  // by person_of() what a platform says of them
+  std::map<std::string, Place> seat_of_person_;  // by platform_id() what a platform says of them
   std::map<Place, Json> queries_;                // of people who have not consented yet
   std::map<LiveService::ConnectionId, ConnectionPtr> connections_;
 };

@@ -7,6 +7,7 @@
 
 #include "kith/store/json_members.hpp"
 #include "kith/store/random_token.hpp"
+#include "kith/store/session_review.hpp"
 #include "service_state.hpp"
 
 namespace kith {
@@ -54,7 +55,7 @@ void JoinDesk::join(const LiveService::HttpRequest& request, const HttpAnswer& a
   const bool is_of_study = code == service_.join_code;
   const auto visit = std::make_shared<Visit>(Visit{.remote = request.remote,
                                                    .code = code,
-                                                   .person = person_of(*service_.study, query),
+                                                   .person = platform_id(*service_.study, query),
                                                    .query = query,
                                                    .is_of_study = is_of_study,
                                                    .may_make = is_of_study && service_.directory.waiting_list() == 0,
