@@ -37,7 +37,7 @@ Correction correction_of(const std::string& word) {
 
 std::string analyze(const std::string& folder, double alpha, const std::string& correction,
                     const std::vector<std::string>& contrasts, const std::vector<std::string>& by) {
-  if (!(alpha >= 1e-6) || alpha > 1.0 - 1e-6) throw py::value_error{"alpha must be above 0 and below 1"};
+  if (!(alpha >= 1e-6) || alpha >= 0.5) throw py::value_error{"alpha must be above 0 and below 0.5"};
   AnalysisOptions options;
   options.alpha = alpha;
   options.correction = correction_of(correction);

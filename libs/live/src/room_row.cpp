@@ -31,7 +31,7 @@ class RoomRowPage {
     for (std::size_t i = 0; i < state_.seats.size(); ++i) {
       if (state_.seats[i].last_page != "moved") row.at<"seats">().push_back(seat_row(i));
     }
-    row.at<"period">() = num_periods(state_) + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
+    row.at<"period">() = current_period(state_);
     row.at<"component">() = component();
     if (state_.started_us) row.at<"started_ms">() = in_ms(*state_.started_us);
     row.at<"ended">() = state_.end_reason;
