@@ -306,6 +306,7 @@ export function screenTests(setting) {
         await page.waitForSelector('.fan');
         assert.equal(await page.locator('.fan .board').count(), 2);
         assert.match(await page.textContent('.fan'), /The robot tries to go .*2 of 3 tries.*You expected it to go .*cannot end in .*1 of 3 tries/s);
+        assert.doesNotMatch(await page.textContent('.fan'), /on purpose/, 'it goes where it is free');
         await show({ person, page }, views['feedback-wrong']);
         assert.equal(await page.locator('.fan').count(), 0);
       });
