@@ -191,6 +191,11 @@ void Dataset::refuse_missing(std::string_view column, std::size_t row) const {
                           .hint = "fill the cell, or leave the row out"}}};
 }
 
+bool Dataset::has_numbers_only(std::string_view column) const {
+  return std::ranges::all_of(
+      cells(column), [&](const auto& cell) { return !cell || (!truth_of(*cell) && number_of(*cell, decimal_comma_)); });
+}
+
 ColumnKind Dataset::kind(std::string_view column) const { return kinds_[index_of(column)]; }
 
 void Dataset::set_kind(std::string_view column, ColumnKind kind) { kinds_[index_of(column)] = kind; }

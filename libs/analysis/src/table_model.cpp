@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -85,16 +84,6 @@ std::vector<std::string> names_of(const std::string& formula) {
   constexpr std::size_t kMostNames = 5;
   const bool any_empty = std::any_of(names.begin(), names.end(), [](const auto& name) { return name.empty(); });
   return names.size() < 2 || names.size() > kMostNames || any_empty ? std::vector<std::string>{} : names;
-}
-
-// A column of numbers, as R reads them.
-bool is_covariate(const Dataset& rows, const std::string& column) {
-  for (std::size_t i = 0; i < rows.num_rows(); ++i) {
-    const auto cell = rows.with_points(column, i).value();
-    char* end = nullptr;
-    if (std::strtod(cell.c_str(), &end); *end != '\0') return false;
-  }
-  return true;
 }
 
 TestFamily tests_read(const RJson& json) {
@@ -197,8 +186,9 @@ std::optional<Analysis> analyze_balanced_table(const Dataset& data, const ModelQ
                         std::all_of(names.begin(), names.end(), [&](const auto& name) { return data.has(name); });
   if (!is_plain) return std::nullopt;
   const auto rows = data.complete(names);
-  const auto is_number = [&](const std::string& name) { return is_covariate(rows, name); };
-  if (rows.num_rows() < data.num_rows() || std::any_of(names.begin() + 1, names.end(), is_number)) return std::nullopt;
+  const auto is_covariate = [&](const std::string& name) { return rows.has_numbers_only(name); };
+  if (rows.num_rows() < data.num_rows() || std::any_of(names.begin() + 1, names.end(), is_covariate))
+    return std::nullopt;
 
   ModelData model{.response = names.front()};
   for (std::size_t i = 1; i < names.size(); ++i) model.factors.push_back(rows.factor(names[i]));

@@ -48,6 +48,8 @@ class Dataset {
   [[nodiscard]] std::vector<std::optional<double>> numbers(std::string_view column) const;
   /// The same of a column in which every row has a value. @throws also (E0903) for a missing cell.
   [[nodiscard]] std::vector<double> required_numbers(std::string_view column) const;
+  /// Whether each cell is missing or a number; true and false are none. @throws as cells() does.
+  [[nodiscard]] bool has_numbers_only(std::string_view column) const;
   /// The column as a factor, levels in the order of appearance. @throws also (E0903) for a missing cell.
   [[nodiscard]] Factor factor(std::string_view column) const;
 
