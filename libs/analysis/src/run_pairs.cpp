@@ -300,7 +300,7 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
   TeamValues together, apart;  // of the same people
   for (std::size_t i = 0; i < teams.size(); ++i) {
     (teams.is_baseline(i) ? alone : group).push_back(values[i]);
-    (teams.is_baseline(i) ? apart : together)[{0, teams.people(i), 0}].push_back(values[i]);
+    (teams.is_baseline(i) ? apart : together)[{teams.people(i), 0}].push_back(values[i]);
   }
   if (group.empty() || alone.empty()) return std::nullopt;
   const auto& outcome = outcome_named(response);

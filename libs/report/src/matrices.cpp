@@ -74,7 +74,7 @@ class Matrix {
     for (std::size_t i = 0; i < data.teams.size(); ++i) {
       const auto& address = run.teams[i];
       cells_[rows.level_of_team[i] * columns.levels.size() + columns.level_of_team[i]]
-            [{0, address.composition, address.replicate}]
+            [{address.composition, address.replicate}]
                 .push_back(i);
     }
   }

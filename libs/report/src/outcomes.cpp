@@ -51,9 +51,9 @@ TeamValues by_people(const FirstScreen& screen, const StudyOutcome& outcome,
     const double value = outcome.of(screen.data.teams[i]);
     if (!is_of(i) || !std::isfinite(value)) continue;
     const auto strategy = screen.paired ? "" : series_of(screen, i).strategy + " ";
-    const auto people =
-        screen.simulated ? TeamPeople{0, strategy + composition_of(screen, i), screen.data.teams[i].address.replicate}
-                         : TeamPeople{0, "", i};
+    const auto people = screen.simulated
+                            ? TeamPeople{strategy + composition_of(screen, i), screen.data.teams[i].address.replicate}
+                            : TeamPeople{"", i};
     values[people].push_back(value);
   }
   return values;

@@ -4,15 +4,15 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "kith/analysis/tests.hpp"
 
 namespace kith {
 
-/// Who teams consist of, as a place among the groups of people of a study: setting, composition, replicate.
-using TeamPeople = std::tuple<std::size_t, std::string, std::size_t>;
+/// Who teams consist of: composition and replicate, for the same people are taught at every setting of a study.
+using TeamPeople = std::pair<std::string, std::size_t>;
 /// An outcome of teams by who they consist of, finite; teams of the same people count once, with their mean.
 using TeamValues = std::map<TeamPeople, std::vector<double>>;
 [[nodiscard]] std::vector<double> means_of_people(const TeamValues& values);
