@@ -94,7 +94,7 @@ Dataset dataset_of(const AnalyzeOptions& options) {
     auto data = Dataset::read(options.input);
     const auto beside = fs::path{options.input}.parent_path() / "codebook.json";
     if (options.codebook.empty() && fs::is_regular_file(beside, failure))
-      (void)describe(data, read_file(beside), beside.string(), fs::path{options.input}.filename().string());
+      describe(data, read_file(beside), beside.string(), fs::path{options.input}.filename().string());
     return data;
   }
   const auto run = PublishedRun::open(options.input);
@@ -102,7 +102,7 @@ Dataset dataset_of(const AnalyzeOptions& options) {
   auto data = Dataset::parse(run.read(table), (run.folder() / table).string());
   const std::string codebook = "tables/codebook.json";
   if (options.codebook.empty() && run.has(codebook))
-    (void)describe(data, run.read(codebook), (run.folder() / codebook).string(), options.table + ".csv");
+    describe(data, run.read(codebook), (run.folder() / codebook).string(), options.table + ".csv");
   return data;
 }
 

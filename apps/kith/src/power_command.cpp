@@ -64,7 +64,7 @@ std::string without_power(const StudySpec& spec) {
   }
   if (names.empty()) return "";
   return fmt::format(
-      "no power is estimated for the planned {}: only for a mean of strategies less that of others, and for two "
+      "no power is estimated for the planned contrasts {}, which neither compare two means of strategies nor two "
       "compositions",
       fmt::join(names, ", "));
 }

@@ -177,7 +177,7 @@ TEST(PowerCommand, PreregistersThePrimaryContrastsAsTheHypotheses) {
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto plan = text_of(file);
   for (const auto& text : {ran.err, plan})
-    EXPECT_THAT(text, HasSubstr("no power is estimated for the planned 'any P'"));
+    EXPECT_THAT(text, HasSubstr("no power is estimated for the planned contrasts 'any P'"));
   EXPECT_THAT(plan, HasSubstr("| knowledge: common - individual-low | difference"));
   const auto hypotheses = plan.substr(plan.find("## Hypotheses"), plan.find("## Design") - plan.find("## Hypotheses"));
   EXPECT_THAT(hypotheses, HasSubstr("1. `knowledge`: the team's belief: the weighted sum of means 1 common - 1 "
