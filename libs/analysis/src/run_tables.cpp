@@ -85,8 +85,9 @@ std::pair<RunTeams, Outcomes> over_settings(const RunTeams& teams, Outcomes outc
   for (const auto& [who, rows] : same) first.push_back(rows.front());
   const std::vector<std::string> none(first.size());
   const auto records = selected(teams.records, first);
-  return {{selected(teams.strategy, first), selected(teams.composition, first), {}, none, records, teams.num_features},
-          std::move(outcomes)};
+  RunTeams over{
+      selected(teams.strategy, first), selected(teams.composition, first), {}, none, records, teams.num_features};
+  return {std::move(over), std::move(outcomes)};
 }
 
 std::vector<std::size_t> group_teams(const RunTeams& teams) {
