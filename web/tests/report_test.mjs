@@ -272,7 +272,7 @@ describe('a report', () => {
     await withReport({ width: 1280, dark: false }, async ({ page }) => {
       const title = () => page.textContent('#team h3');
       const before = await title();
-      await page.click('#figure-periods svg path[opacity="0.38"] >> nth=-1', { force: true });
+      await page.click('#figure-periods svg path[opacity="0.38"] >> nth=-1');
       assert.notEqual(await title(), before);
       assert.match(await title(), /^Team \d+: .+, [NP]+, replicate \d+$/);
       assert.equal(await page.evaluate(() => document.activeElement.id), 'team-choice');
