@@ -128,7 +128,8 @@ describe('a document', () => {
       assert.equal(await page.textContent('h1'), `${attack}.`);
       assert.equal(await page.title(), attack);
       assert.equal(await page.evaluate(() => window.attacked), undefined);
-      await page.hover('#figure-periods svg .mark-symbol path >> nth=0', { force: true });
+      await page.hover('#figure-periods svg path[opacity="0.38"] >> nth=-1');
+      await page.waitForSelector('#vg-tooltip-element.visible');
       assert.equal(await page.$('img'), null);
     });
   });
