@@ -128,8 +128,14 @@ describe('a document', () => {
       assert.equal(await page.textContent('h1'), `${attack}.`);
       assert.equal(await page.title(), attack);
       assert.equal(await page.evaluate(() => window.attacked), undefined);
-      await page.hover('#figure-periods svg path[opacity="0.38"] >> nth=-1');
-      await page.waitForSelector('#vg-tooltip-element.visible');
+      const dots = page.locator('#figure-periods svg path[opacity="0.38"]');
+      const hovered = async (dot) => {
+        await dot.hover();
+        return page.textContent('#vg-tooltip-element.visible');
+      };
+      const joint = await dots.evaluateAll((all) => all.findLastIndex((one) => one.__data__.datum.strategy.startsWith('<')));
+      assert.ok((await hovered(dots.nth(joint))).includes(attack), 'the tooltip has the words');
+      assert.match(await hovered(dots.last()), /Teams[NP]+Periods/, 'a row of the baseline is a composition');
       assert.equal(await page.$('img'), null);
     });
   });

@@ -63,6 +63,7 @@ function spec(study: Study, { factor, rows }: Group, outcomes: Differences['outc
       zero: true,
       ownScales: true,
       left: study.factors.length > 0 ? undefined : left,
+      rows: factor === 'strategy' ? undefined : 'Teams',
       strategyOf: (row) => String(row.label),
     },
     width,

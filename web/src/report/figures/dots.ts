@@ -21,6 +21,7 @@ export interface DotsOptions {
   ownScales?: boolean; // panels that are not compared with each other
   left?: number | undefined; // room for the names, px; '|' breaks a line
   first?: number | undefined; // panels before these, where the figure has others too
+  rows?: string | undefined; // what a row is; 'Strategy' unless said otherwise
   strategyOf(row: Row): string; // its label
 }
 
@@ -79,6 +80,7 @@ function layers(
   const cut = (value: number | null): number | null => (value === null ? null : Math.min(to, Math.max(from, value)));
   const means = panel.means.map((row) => ({
     strategy: options.strategyOf(row),
+    name: options.strategyOf(row).replaceAll('|', ' '),
     mean: num(row[options.mean]),
     low: cut(num(row[options.low])),
     high: cut(num(row[options.high])),
@@ -91,7 +93,7 @@ function layers(
     return { strategy, value: num(row[options.point ?? '']), spread: spread(i), team: row.team ?? null };
   });
   const tooltip = [
-    { field: 'strategy', title: 'Strategy' },
+    { field: 'name', title: options.rows ?? 'Strategy' },
     { field: 'mean', title: options.xTitle, format: '.3~r' },
     { field: 'low', title: `${options.interval ?? '95 %'} from`, format: '.3~r' },
     { field: 'high', title: 'to', format: '.3~r' },
@@ -106,7 +108,7 @@ function layers(
       color: hue,
       tooltip: [
         { field: 'team', title: options.opensTeams ? 'Click for team' : 'Team' },
-        { field: 'strategy', title: 'Strategy' },
+        { field: 'strategy', title: options.rows ?? 'Strategy' },
         { field: 'value', title: options.xTitle, format: '.3~r' },
       ],
     },

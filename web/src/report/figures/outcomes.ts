@@ -83,6 +83,7 @@ function spec(
         ...common,
         first: facets.length,
         looks: facets.map(({ title }) => ({ ...(look ?? plain), label: title })),
+        rows: 'Teams',
         panels: [{ title: study.words.strategy('baseline'), means: baseline, points: points.filter(isBaseline) }],
         strategyOf: (row) => facets.find(({ rows }) => rows.some((one) => one.composition === row.composition && one.setting === row.setting))?.title ?? '',
       },
