@@ -34,8 +34,8 @@ export function lookTests({ withPage, violations, shoot, titles }) {
 
   it('shows a group of twelve on a screen of 1280 x 800 without scrolling', async () => {
     await withPage({ calm: true }, async (page, wire) => {
-      // Somebody who is away takes a line of their own.
-      const here = ({ needs_help: _, ...seat }) => ({ ...seat, presence: 'here' });
+      // Somebody who is away, or has been answering for long, takes a line of their own.
+      const here = ({ needs_help: _, stage_since_ms: __, ...seat }) => ({ ...seat, presence: 'here' });
       wire.bend = (view) => ({ ...view, rooms: view.rooms?.map((room) => ({ ...room, seats: room.seats.map(here) })) });
       wire.again();
       await openRoom(page, titles.twelve);
