@@ -199,11 +199,12 @@ export async function play(people, choose = () => undefined, isOver = () => peop
 const bestActions = (world, start) => bestPath(world, start).actions;
 const answerTo = ({ kind, options }) => (kind === 'likert' ? 3 : kind === 'choice' ? options[0] : 'nothing');
 
-// What lies between a page and its server: it can hold, change and add frames, and break. `sent` is what the page said.
+// What lies between a page and its server: it can hold, change and add frames, and break. `sent` is what the page said,
+// `acknowledged` the ids of what the server has taken.
 export class Wire {
   constructor() {
     Object.assign(this, { sent: [], numOpened: 0, holdsAcks: false, isDown: false, isSilent: false });
-    Object.assign(this, { open: new Set(), last: null, bend: (view) => view });
+    Object.assign(this, { open: new Set(), acknowledged: new Set(), last: null, bend: (view) => view });
   }
 
   async between(context) {
@@ -222,6 +223,7 @@ export class Wire {
       });
       server.onMessage((text) => {
         const frame = JSON.parse(text);
+        if (frame.t === 'ack') this.acknowledged.add(frame.id);
         if (this.holdsAcks && frame.t === 'ack') return;
         if (frame.t === 'view') this.last = { rooms: this.last?.rooms, ...frame.view };
         page.send(frame.t === 'view' ? JSON.stringify({ ...frame, view: this.bend(frame.view) }) : text);

@@ -87,7 +87,8 @@ export function failureTests(setting) {
       await withGroup(setting, {}, async ({ wire, person }) => {
         await person.toPredict();
         const best = await person.best();
-        const drafted = ({ sent }, n) => until(() => sent.some(({ t, body }) => t === 'draft' && body.actions.length === n));
+        const drafted = (at, n) =>
+          until(() => at.of('draft').some(({ id, body }) => body.actions.length === n && at.acknowledged.has(id)));
         await person.drive(best.slice(0, 2));
         await drafted(wire, 2);
         const other = await openPerson(setting.browser, await linkOf(person), {});
@@ -173,10 +174,11 @@ export function failureTests(setting) {
         wire.holdsAcks = true;
         await person.consent();
         await until(() => wire.sent.length === 1);
+        wire.isDown = true; // until it has been seen that the page reconnects
         await person.pass(21_000);
-        wire.holdsAcks = false;
         await person.hasStatus('Reconnecting');
-        await person.pass(500);
+        wire.isDown = wire.holdsAcks = false;
+        await person.pass(8000);
         await until(() => wire.sent.length === 2);
         assert.equal(wire.sent[0].id, wire.sent[1].id);
         await person.hasStatus('Saved');
